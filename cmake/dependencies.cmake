@@ -1,0 +1,34 @@
+# Every library the project links, found once. Layers link what they need, privately.
+
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+find_package(Ceres REQUIRED)
+find_package(OpenMesh REQUIRED)
+find_package(CGAL REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(nlohmann_json REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-pdf cairo-svg pangocairo)
+pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+pkg_check_modules(CLIPPER REQUIRED IMPORTED_TARGET polyclipping)
+find_library(DXFLIB dxflib REQUIRED)
+
+# PCL's package looks for a VTK with Qt and MPI, and for cameras; none of that is ours.
+foreach(unwanted VTK OpenNI OpenNI2 Pcap)
+  set(CMAKE_DISABLE_FIND_PACKAGE_${unwanted} ON)
+endforeach()
+find_package(PCL 1.13 REQUIRED COMPONENTS common io registration filters search kdtree)
+foreach(unwanted VTK OpenNI OpenNI2 Pcap)
+  set(CMAKE_DISABLE_FIND_PACKAGE_${unwanted} OFF)
+endforeach()
+# One target for PCL: its headers as system headers, only the libraries named.
+add_library(adit_pcl INTERFACE)
+target_include_directories(adit_pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
+target_link_libraries(adit_pcl INTERFACE ${PCL_LIBRARIES})
+
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel RenderingCore RenderingOpenGL2 RenderingFreeType
+                                         FiltersCore FiltersSources)

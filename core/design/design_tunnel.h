@@ -1,0 +1,44 @@
+#pragma once
+// The design: an axis, profiles along it and named lines.
+
+#include <string>
+#include <vector>
+
+#include "core/design/alignment.h"
+#include "core/design/profile.h"
+
+namespace adit {
+
+/// A line parallel to the profile: every number of the results names its line. offset_m outwards positive.
+struct DesignLine {
+  std::string name = "excavation";
+  double offset_m = 0.0;
+  bool operator==(const DesignLine&) const = default;
+};
+
+/// A profile and the chainage it holds from (stepped: it holds up to the next one).
+struct ProfileFrom {
+  double from_m = 0.0;
+  Profile profile;
+};
+
+class DesignTunnel {
+ public:
+  DesignTunnel() = default;
+  /// Throws Error when there is no profile, no line, or profiles are not in order of chainage.
+  DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profiles, std::vector<DesignLine> lines);
+
+  const Alignment& alignment() const { return alignment_; }
+  const std::vector<ProfileFrom>& profiles() const { return profiles_; }
+  const std::vector<DesignLine>& lines() const { return lines_; }
+  const Profile& profile_at(double chainage_m) const;
+
+  DesignTunnel relative_to(const Eigen::Vector3d& origin) const;
+
+ private:
+  Alignment alignment_;
+  std::vector<ProfileFrom> profiles_;
+  std::vector<DesignLine> lines_;
+};
+
+}  // namespace adit

@@ -1,0 +1,38 @@
+#pragma once
+// Control points, targets seen in scans, and the rigid fit between them.
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/pose.h"
+
+namespace adit {
+
+/// A surveyed point: site coordinates [m].
+struct ControlPoint {
+  std::string id;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+/// A target found in a scan: coordinates in the scan's frame [m].
+struct TargetObservation {
+  std::string scan;
+  std::string id;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+/// What is left of a target after the adjustment: observed minus control, site axes [m].
+struct ControlResidual {
+  std::string scan;
+  std::string id;
+  Eigen::Vector3d residual_m = Eigen::Vector3d::Zero();
+};
+
+/// Rigid transform (least squares, Arun et al. 1987 / Umeyama without scale) target_from_source over pairs of points.
+/// Empty with fewer than three points or when they lie on one line (1 cm).
+std::optional<Pose> fit_rigid(const std::vector<Eigen::Vector3d>& source, const std::vector<Eigen::Vector3d>& target);
+
+}  // namespace adit
