@@ -1,0 +1,1 @@
+#include "io/scan_formats.h"
