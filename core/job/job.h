@@ -1,0 +1,74 @@
+#pragma once
+// What is to be done: the content of job.json, checked. Plain values.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/design/design_tunnel.h"
+#include "core/geometry/pose.h"
+#include "core/profiling/profiling.h"
+#include "core/registration/registration.h"
+#include "core/surface/reconstruct.h"
+
+namespace adit {
+
+struct JobScan {
+  std::string name;
+  std::string file;                              ///< relative to the job's folder
+  std::optional<Eigen::Vector3d> position;       ///< site, guess
+  YawPitchRoll angles;
+};
+
+struct JobProfile {
+  double from_m = 0.0;
+  std::string file;
+  std::string layer;                             ///< of a DXF; empty: the only closed line
+};
+
+struct JobRound {
+  int number = 0;
+  double from_m = 0.0;
+  double to_m = 0.0;
+  double drilled_m = 0.0;                        ///< 0 when not stated
+};
+
+struct JobChainage {
+  double from_m = 0.0;
+  double to_m = 0.0;
+  double interval_m = 1.0;
+};
+
+struct JobOptions {
+  RegistrationOptions registration;
+  ProfilingOptions profiling;
+  SurfaceOptions surface;
+};
+
+/// Calls visit(group name, options struct) for every group: the one list of option groups.
+template <typename Options, typename Visit>
+void for_each_group(Options& options, const Visit& visit) {
+  visit("registration", options.registration);
+  visit("profiling", options.profiling);
+  visit("surface", options.surface);
+}
+
+struct Job {
+  std::string name;
+  std::string client;
+  std::string surveyor;
+  std::vector<JobScan> scans;
+  std::string control;                           ///< files; empty: none
+  std::string targets;
+  std::string alignment;
+  std::string alignment_name;                    ///< when the file holds several
+  std::vector<JobProfile> profiles;
+  std::vector<DesignLine> lines{{"excavation", 0.0}};
+  std::optional<JobChainage> chainage;
+  std::vector<JobRound> rounds;
+  JobOptions options;
+};
+
+}  // namespace adit

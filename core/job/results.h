@@ -1,0 +1,84 @@
+#pragma once
+// What came out of a job, per step, with its findings: the content of results.json. Plain values.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/foundation/finding.h"
+#include "core/georeference/project_origin.h"
+#include "core/profiling/profiling.h"
+#include "core/registration/registration.h"
+#include "core/surface/mesh.h"
+
+namespace adit {
+
+/// A file the job read, named as in job.json.
+struct InputRecord {
+  std::string file;
+  std::string sha256;
+  std::uint64_t points = 0;  ///< 0 for files that are not scans
+};
+
+struct ImportResult {
+  std::vector<InputRecord> inputs;
+  ProjectOrigin origin;
+  Findings findings;
+};
+
+struct SurfaceResult {
+  MeshSummary mesh;
+  Findings findings;
+};
+
+struct ProfileResult {
+  std::uint64_t points_used = 0;
+  std::uint64_t points_inside = 0;
+  std::uint64_t points_outside = 0;
+  std::vector<Section> sections;
+  Findings findings;
+};
+
+struct VolumeResult {
+  std::vector<Volume> lines;          ///< one for each design line, the first is the reference
+  std::vector<RoundVolume> rounds;
+  Findings findings;
+};
+
+/// Errors of a simulated job against its exact truth.
+struct TruthComparison {
+  double worst_position_error_m = 0.0;
+  double worst_rotation_error_rad = 0.0;
+  VolumeAmounts true_volume;
+  double excavated_error = 0.0;       ///< relative
+  double overbreak_error = 0.0;       ///< relative
+  double underbreak_error_m3 = 0.0;
+  double section_area_rms = 0.0;      ///< relative, over all sections
+};
+
+struct StepTime {
+  std::string step;
+  double seconds = 0.0;
+  bool fresh = false;                 ///< true when nothing had changed and the step did not run
+};
+
+struct Results {
+  std::string version;
+  ImportResult import;
+  RegistrationResult registration;
+  std::optional<SurfaceResult> surface;
+  std::optional<ProfileResult> profile;
+  std::optional<VolumeResult> volume;
+  std::optional<TruthComparison> truth;
+  std::vector<StepTime> timing;
+  std::uint64_t peak_memory_bytes = 0;
+};
+
+/// Every finding of every step, in order of the steps.
+Findings all_findings(const Results& results);
+
+/// True when a person must look: exit code 1.
+bool needs_a_person(const Results& results);
+
+}  // namespace adit

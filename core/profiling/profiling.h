@@ -1,0 +1,71 @@
+#pragma once
+// Registered scans and a design to the deviation map, sections and volumes.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/foundation/finding.h"
+#include "core/foundation/progress.h"
+#include "core/geometry/tile_source.h"
+#include "core/profiling/section.h"
+#include "core/profiling/volume.h"
+
+namespace adit {
+
+struct ProfilingOptions {
+  double slice_m = 0.10;           ///< thickness of a slice along the chainage
+  double cell_m = 0.10;            ///< width of a cell along the design line
+  double gap_m = 1.0;              ///< gaps of the outline up to this are interpolated and counted apart
+  double reach_out_m = 3.0;        ///< points farther outside the line are not of this tunnel
+  double reach_in_m = 0.6;         ///< points farther inside the line are equipment, people or muck, not rock
+  double surface_band_m = 0.10;    ///< points this close behind one another are one surface
+  int least_points = 3;            ///< a cell with fewer points is not measured
+  double least_range_m = 0.6;      ///< nearer points are the scanner itself
+  double most_range_m = 45.0;      ///< farther points are too oblique to be used
+};
+
+template <typename Visitor>
+void describe(Visitor& v, ProfilingOptions& o) {
+  v.number("slice_m", o.slice_m, "m", 0.01, 1.0, "thickness of a slice along the chainage");
+  v.number("cell_m", o.cell_m, "m", 0.01, 1.0, "width of a cell along the design line");
+  v.number("gap_m", o.gap_m, "m", 0.0, 5.0, "gaps of the outline up to this are interpolated and counted apart");
+  v.number("reach_out_m", o.reach_out_m, "m", 0.1, 20.0, "points farther outside the line are not of this tunnel");
+  v.number("reach_in_m", o.reach_in_m, "m", 0.05, 20.0, "points farther inside the line are not rock");
+  v.number("surface_band_m", o.surface_band_m, "m", 0.005, 1.0, "points this close behind one another are one surface");
+  v.count("least_points", o.least_points, "", 1, 100, "a cell with fewer points is not measured");
+  v.number("least_range_m", o.least_range_m, "m", 0.0, 10.0, "nearer points are the scanner itself");
+  v.number("most_range_m", o.most_range_m, "m", 1.0, 1000.0, "farther points are too oblique to be used");
+}
+
+/// A scan with its place: local frame = site minus project origin.
+struct PlacedTiles {
+  std::string name;
+  std::shared_ptr<const TileSource> points;
+  Pose local_from_scan = Pose::Identity();
+};
+
+/// Streams every tile that reaches the stretch [from, to] into the map. The design is in the local frame.
+struct MapResult {
+  DeviationMap map;
+  std::uint64_t points_used = 0;
+  std::uint64_t points_inside = 0;   ///< left out: farther inside the line than reach_in_m
+  std::uint64_t points_outside = 0;  ///< left out: farther outside than reach_out_m
+  Findings findings;
+};
+MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunnel& design, double from_m, double to_m,
+                         const ProfilingOptions& options, Progress& progress);
+
+/// The section at a chainage: the mean of the map rows it touches.
+Section cut_section(const DeviationMap& map, const DesignTunnel& design, double chainage_m,
+                    const ProfilingOptions& options);
+
+/// Chainages from, from + interval, ... up to and including to.
+std::vector<double> section_chainages(double from_m, double to_m, double interval_m);
+
+/// Volumes of a stretch against one line.
+Volume compute_volume(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line, double from_m,
+                      double to_m, const std::vector<Section>& sections, const std::vector<PlacedScan>& poses,
+                      const ProfilingOptions& options, Progress& progress);
+
+}  // namespace adit

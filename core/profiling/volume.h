@@ -1,0 +1,48 @@
+#pragma once
+// Volumes between two chainages by thin slices with plan curvature, other methods beside them.
+
+#include <string>
+#include <vector>
+
+#include "core/design/design_tunnel.h"
+#include "core/foundation/progress.h"
+#include "core/profiling/deviation_map.h"
+#include "core/profiling/section.h"
+#include "core/registration/registration.h"
+
+namespace adit {
+
+struct VolumeAmounts {
+  double design_m3 = 0.0;
+  double excavated_m3 = 0.0;
+  double overbreak_m3 = 0.0;
+  double underbreak_m3 = 0.0;
+};
+
+/// One line, one stretch. sigma are one standard deviation.
+struct Volume {
+  std::string line;
+  double line_offset_m = 0.0;
+  double from_m = 0.0;
+  double to_m = 0.0;
+  VolumeAmounts slices;            ///< thin slices with plan curvature: the number to use
+  VolumeAmounts average_end_area;  ///< from the sections at the job's interval
+  VolumeAmounts prismoidal;
+  double sigma_excavated_m3 = 0.0;
+  double sigma_overbreak_m3 = 0.0;
+  double sigma_underbreak_m3 = 0.0;
+  double coverage = 0.0;           ///< measured share of the surface
+  double measured_m2 = 0.0;
+  double interpolated_m2 = 0.0;
+  double unseen_m2 = 0.0;
+  double closure_m3 = 0.0;         ///< (excavated - design) - (over - under): zero but for rounding
+};
+
+/// A blasting round with its own volumes against the reference line.
+struct RoundVolume {
+  int number = 0;
+  double drilled_m = 0.0;          ///< 0 when not stated
+  Volume volume;
+};
+
+}  // namespace adit
