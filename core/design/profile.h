@@ -1,7 +1,7 @@
 #pragma once
 // The design line in the section plane: a closed curve of lines and arcs.
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <string>
 #include <vector>

@@ -11,7 +11,7 @@
 #include "core/geometry/pose.h"
 #include "core/profiling/profiling.h"
 #include "core/registration/registration.h"
-#include "core/surface/reconstruct.h"
+#include "core/surface/surface_options.h"
 
 namespace adit {
 

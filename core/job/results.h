@@ -10,7 +10,7 @@
 #include "core/georeference/project_origin.h"
 #include "core/profiling/profiling.h"
 #include "core/registration/registration.h"
-#include "core/surface/mesh.h"
+#include "core/surface/mesh_summary.h"
 
 namespace adit {
 
