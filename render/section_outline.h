@@ -1,0 +1,34 @@
+#pragma once
+// What a section drawing shows, as plain geometry: the outline in runs, and the areas over and under a line.
+
+#include <vector>
+
+#include "core/geometry/polygon.h"
+#include "core/profiling/section.h"
+
+namespace adit::render {
+
+/// A stretch of the outline seen in one way.
+struct OutlineRun {
+  CellKind kind = CellKind::measured;
+  Polygon points;  ///< an open polyline; the whole closed ring (first point repeated) when all is of one kind
+};
+
+/// The outline cut where the kind changes. An edge is as good as the weaker of its ends.
+std::vector<OutlineRun> outline_runs(const std::vector<OutlinePoint>& outline);
+
+/// The outline as a ring against one line: where nobody looked it follows the line, so that nothing unseen counts.
+/// Both clockwise.
+Polygon outline_against(const std::vector<OutlinePoint>& outline, const Polygon& line);
+
+/// Rings of rock outside the line (over) and of rock left inside it (under).
+struct OverUnder {
+  std::vector<Polygon> over;
+  std::vector<Polygon> under;
+};
+OverUnder over_under(const std::vector<OutlinePoint>& outline, const Polygon& line);
+
+/// The outline's point nearest to p along the line (p runs around the closed line); nullptr for an empty outline.
+const OutlinePoint* outline_at(const std::vector<OutlinePoint>& outline, double p_m);
+
+}  // namespace adit::render
