@@ -16,7 +16,8 @@ const Pen frame_pen{colours::grey, 0.2, {}};
 
 int decimals_of(double step) {
   int decimals = 0;
-  for (double scaled = step; decimals < 6 && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled; scaled *= 10.0) ++decimals;
+  for (double scaled = step; decimals < 6 && std::abs(scaled - std::round(scaled)) > 1e-6 * scaled; scaled *= 10.0)
+    ++decimals;
   return decimals;
 }
 
@@ -80,7 +81,11 @@ void draw_axes(Canvas& canvas, const PlotArea& area, const AxisTexts& texts) {
   canvas.text({area.rect.centre().x(), area.rect.bottom() + tick_mm + 0.5 + 1.3 * text}, texts.x,
               {.size_mm = text, .colour = colours::grey, .across = Across::centre, .down = Down::top});
   canvas.text({area.rect.left - tick_mm - 1.2 - widest, area.rect.centre().y()}, texts.y,
-              {.size_mm = text, .colour = colours::grey, .across = Across::centre, .down = Down::bottom, .turn_rad = -M_PI / 2.0});
+              {.size_mm = text,
+               .colour = colours::grey,
+               .across = Across::centre,
+               .down = Down::bottom,
+               .turn_rad = -M_PI / 2.0});
 }
 
 }  // namespace adit::render

@@ -19,7 +19,9 @@ cairo_status_t append(void* closure, const unsigned char* bytes, unsigned int le
   return CAIRO_STATUS_SUCCESS;
 }
 
-void set_colour(cairo_t* cairo, const Colour& c) { cairo_set_source_rgba(cairo, c.red, c.green, c.blue, c.alpha); }
+void set_colour(cairo_t* cairo, const Colour& c) {
+  cairo_set_source_rgba(cairo, c.red, c.green, c.blue, c.alpha);
+}
 
 void path_of(cairo_t* cairo, const PaperRing& points, bool closed) {
   for (const PaperPoint& p : points) cairo_line_to(cairo, p.x() * points_per_mm, p.y() * points_per_mm);
@@ -58,6 +60,11 @@ Layout make_layout(cairo_t* cairo, const std::string& text, const TextStyle& sty
   gchar* valid = g_utf8_make_valid(text.data(), static_cast<gssize>(text.size()));
   pango_layout_set_text(layout.get(), valid, -1);
   g_free(valid);
+  if (style.shorten_mm > 0.0) {
+    pango_layout_set_width(layout.get(), static_cast<int>(std::lround(style.shorten_mm * points_per_mm * PANGO_SCALE)));
+    pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_END);
+    pango_layout_set_single_paragraph_mode(layout.get(), TRUE);
+  }
   if (style.wrap_mm > 0.0) {
     pango_layout_set_width(layout.get(), static_cast<int>(std::lround(style.wrap_mm * points_per_mm * PANGO_SCALE)));
     pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
@@ -68,8 +75,12 @@ Layout make_layout(cairo_t* cairo, const std::string& text, const TextStyle& sty
   return layout;
 }
 
-double share_across(Across across) { return across == Across::left ? 0.0 : across == Across::centre ? 0.5 : 1.0; }
-double share_down(Down down) { return down == Down::top ? 0.0 : down == Down::middle ? 0.5 : 1.0; }
+double share_across(Across across) {
+  return across == Across::left ? 0.0 : across == Across::centre ? 0.5 : 1.0;
+}
+double share_down(Down down) {
+  return down == Down::top ? 0.0 : down == Down::middle ? 0.5 : 1.0;
+}
 
 }  // namespace
 
@@ -96,7 +107,9 @@ struct Canvas::Paper {
   }
 };
 
-Canvas::Canvas(std::unique_ptr<Paper> paper) : paper_(std::move(paper)) { paper_->open(); }
+Canvas::Canvas(std::unique_ptr<Paper> paper) : paper_(std::move(paper)) {
+  paper_->open();
+}
 Canvas::Canvas(Canvas&&) noexcept = default;
 Canvas& Canvas::operator=(Canvas&&) noexcept = default;
 Canvas::~Canvas() = default;
@@ -107,7 +120,8 @@ Canvas Canvas::pdf(double width_mm, double height_mm, const DocumentTitle& title
   if (!std::regex_match(title.date, iso))
     throw Error("a document needs an ISO 8601 date, found \"" + title.date + "\"", {}, "write it as 2024-05-31");
   auto paper = std::make_unique<Paper>(width_mm, height_mm);
-  paper->surface = cairo_pdf_surface_create_for_stream(append, &paper->bytes, width_mm * points_per_mm, height_mm * points_per_mm);
+  paper->surface =
+      cairo_pdf_surface_create_for_stream(append, &paper->bytes, width_mm * points_per_mm, height_mm * points_per_mm);
   cairo_pdf_surface_set_metadata(paper->surface, CAIRO_PDF_METADATA_TITLE, title.title.c_str());
   cairo_pdf_surface_set_metadata(paper->surface, CAIRO_PDF_METADATA_AUTHOR, title.author.c_str());
   cairo_pdf_surface_set_metadata(paper->surface, CAIRO_PDF_METADATA_CREATOR, "Adit");
@@ -117,7 +131,8 @@ Canvas Canvas::pdf(double width_mm, double height_mm, const DocumentTitle& title
 
 Canvas Canvas::svg(double width_mm, double height_mm) {
   auto paper = std::make_unique<Paper>(width_mm, height_mm);
-  paper->surface = cairo_svg_surface_create_for_stream(append, &paper->bytes, width_mm * points_per_mm, height_mm * points_per_mm);
+  paper->surface =
+      cairo_svg_surface_create_for_stream(append, &paper->bytes, width_mm * points_per_mm, height_mm * points_per_mm);
   return Canvas(std::move(paper));
 }
 
@@ -136,16 +151,28 @@ Canvas Canvas::over(const Picture& picture, double dots_per_inch) {
   return canvas;
 }
 
-double Canvas::width_mm() const { return paper_->width_mm; }
-double Canvas::height_mm() const { return paper_->height_mm; }
+double Canvas::width_mm() const {
+  return paper_->width_mm;
+}
+double Canvas::height_mm() const {
+  return paper_->height_mm;
+}
 
-void Canvas::next_page() { cairo_show_page(paper_->cairo); }
-void Canvas::save() { cairo_save(paper_->cairo); }
-void Canvas::restore() { cairo_restore(paper_->cairo); }
+void Canvas::next_page() {
+  cairo_show_page(paper_->cairo);
+}
+void Canvas::save() {
+  cairo_save(paper_->cairo);
+}
+void Canvas::restore() {
+  cairo_restore(paper_->cairo);
+}
 void Canvas::translate(double right_mm, double down_mm) {
   cairo_translate(paper_->cairo, right_mm * points_per_mm, down_mm * points_per_mm);
 }
-void Canvas::rotate(double clockwise_rad) { cairo_rotate(paper_->cairo, clockwise_rad); }
+void Canvas::rotate(double clockwise_rad) {
+  cairo_rotate(paper_->cairo, clockwise_rad);
+}
 
 void Canvas::clip(const Rect& rect) {
   cairo_rectangle(paper_->cairo, rect.left * points_per_mm, rect.top * points_per_mm, rect.width * points_per_mm,
@@ -153,7 +180,9 @@ void Canvas::clip(const Rect& rect) {
   cairo_clip(paper_->cairo);
 }
 
-void Canvas::line(const PaperPoint& from, const PaperPoint& to, const Pen& pen) { polyline({from, to}, pen); }
+void Canvas::line(const PaperPoint& from, const PaperPoint& to, const Pen& pen) {
+  polyline({from, to}, pen);
+}
 
 void Canvas::polyline(const PaperRing& points, const Pen& pen, bool closed) {
   path_of(paper_->cairo, points, closed);
@@ -166,8 +195,12 @@ void Canvas::fill(const std::vector<PaperRing>& rings, const Colour& colour) {
   cairo_fill(paper_->cairo);
 }
 
-void Canvas::fill(const Rect& rect, const Colour& colour) { fill({ring_of(rect)}, colour); }
-void Canvas::frame(const Rect& rect, const Pen& pen) { polyline(ring_of(rect), pen, true); }
+void Canvas::fill(const Rect& rect, const Colour& colour) {
+  fill({ring_of(rect)}, colour);
+}
+void Canvas::frame(const Rect& rect, const Pen& pen) {
+  polyline(ring_of(rect), pen, true);
+}
 
 void Canvas::hatch(const std::vector<PaperRing>& rings, const Pen& pen, double spacing_mm, double turn_rad) {
   Eigen::AlignedBox2d box;
@@ -193,7 +226,8 @@ void Canvas::hatch(const std::vector<PaperRing>& rings, const Pen& pen, double s
 
 void Canvas::disc(const PaperPoint& centre, double radius_mm, const Colour& colour) {
   cairo_new_path(paper_->cairo);
-  cairo_arc(paper_->cairo, centre.x() * points_per_mm, centre.y() * points_per_mm, radius_mm * points_per_mm, 0.0, 2.0 * M_PI);
+  cairo_arc(paper_->cairo, centre.x() * points_per_mm, centre.y() * points_per_mm, radius_mm * points_per_mm, 0.0,
+            2.0 * M_PI);
   set_colour(paper_->cairo, colour);
   cairo_fill(paper_->cairo);
 }
@@ -211,7 +245,8 @@ void Canvas::text(const PaperPoint& at, const std::string& text, const TextStyle
   const Layout layout = make_layout(cairo, text, style);
   PangoRectangle box;
   pango_layout_get_extents(layout.get(), nullptr, &box);
-  const double width = style.wrap_mm > 0.0 ? style.wrap_mm * points_per_mm : static_cast<double>(box.width) / PANGO_SCALE;
+  const double width =
+      style.wrap_mm > 0.0 ? style.wrap_mm * points_per_mm : static_cast<double>(box.width) / PANGO_SCALE;
   const double height = static_cast<double>(box.height) / PANGO_SCALE;
   cairo_save(cairo);
   cairo_translate(cairo, at.x() * points_per_mm, at.y() * points_per_mm);
@@ -251,7 +286,8 @@ std::string Canvas::finish() {
   if (paper_->is_picture) throw Error("a picture canvas has no document");
   cairo_surface_finish(paper_->surface);
   if (cairo_surface_status(paper_->surface) != CAIRO_STATUS_SUCCESS)
-    throw Error(std::string("a drawing could not be written: ") + cairo_status_to_string(cairo_surface_status(paper_->surface)));
+    throw Error(std::string("a drawing could not be written: ") +
+                cairo_status_to_string(cairo_surface_status(paper_->surface)));
   return std::move(paper_->bytes);
 }
 

@@ -82,9 +82,10 @@ Colour deviation_colour(const DeviationScale& scale, double deviation_m) {
 
 Colour scan_colour(std::size_t i) {
   static constexpr std::array<Colour, scan_colour_count> list{
-      Colour{0.122, 0.467, 0.706}, Colour{0.902, 0.380, 0.004}, Colour{0.105, 0.580, 0.290}, Colour{0.698, 0.094, 0.169},
-      Colour{0.459, 0.318, 0.690}, Colour{0.550, 0.340, 0.294}, Colour{0.850, 0.370, 0.680}, Colour{0.350, 0.350, 0.350},
-      Colour{0.690, 0.650, 0.050}, Colour{0.050, 0.650, 0.720}, Colour{0.000, 0.270, 0.400}, Colour{0.450, 0.720, 0.200}};
+      Colour{0.122, 0.467, 0.706}, Colour{0.902, 0.380, 0.004}, Colour{0.105, 0.580, 0.290},
+      Colour{0.698, 0.094, 0.169}, Colour{0.459, 0.318, 0.690}, Colour{0.550, 0.340, 0.294},
+      Colour{0.850, 0.370, 0.680}, Colour{0.350, 0.350, 0.350}, Colour{0.690, 0.650, 0.050},
+      Colour{0.050, 0.650, 0.720}, Colour{0.000, 0.270, 0.400}, Colour{0.450, 0.720, 0.200}};
   return list[i % list.size()];
 }
 

@@ -12,15 +12,15 @@ namespace adit::render {
 namespace {
 
 constexpr double text_mm = 2.2;
-constexpr double left_mm = 19.0;      // ticks and "left wall"
-constexpr double below_mm = 8.5;      // ticks and name of the chainage axis
-constexpr double rounds_mm = 4.0;     // numbers of rounds above a strip
+constexpr double left_mm = 19.0;   // ticks and "left wall"
+constexpr double below_mm = 8.5;   // ticks and name of the chainage axis
+constexpr double rounds_mm = 4.0;  // numbers of rounds above a strip
 constexpr double legend_mm = 17.0;
 constexpr double longest_strip_m = 100.0;
 constexpr double least_strip_mm = 38.0;
 constexpr double most_strip_mm = 105.0;
 constexpr int most_pixels = 4000;
-constexpr int cell_pixels = 5;        // enough for the dot of an interpolated cell
+constexpr int cell_pixels = 5;  // enough for the dot of an interpolated cell
 
 struct Strip {
   std::size_t row_begin = 0;
@@ -32,7 +32,8 @@ std::vector<Strip> strips_of(const DeviationMap& map) {
   const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length / longest_strip_m - 1e-6)));
   const std::size_t rows = (map.rows + count - 1) / count;
   std::vector<Strip> strips;
-  for (std::size_t begin = 0; begin < map.rows; begin += rows) strips.push_back({begin, std::min(begin + rows, map.rows)});
+  for (std::size_t begin = 0; begin < map.rows; begin += rows)
+    strips.push_back({begin, std::min(begin + rows, map.rows)});
   return strips;
 }
 
@@ -56,7 +57,8 @@ void paint_cell(Picture& picture, int x0, int y0, int size, const MapCell& cell,
   const auto fill = bytes_of(guessed ? mixed(colour, colours::white, 0.55) : colour);
   for (int y = y0; y < y0 + size; ++y)
     for (int x = x0; x < x0 + size; ++x) picture.set_pixel(x, y, fill);
-  if (guessed && size >= 3) picture.set_pixel(x0 + size / 2, y0 + size / 2, bytes_of(mixed(colour, colours::black, 0.5)));
+  if (guessed && size >= 3)
+    picture.set_pixel(x0 + size / 2, y0 + size / 2, bytes_of(mixed(colour, colours::black, 0.5)));
 }
 
 Picture picture_of(const DeviationMap& map, const Strip& strip, const DeviationScale& scale) {
@@ -66,7 +68,8 @@ Picture picture_of(const DeviationMap& map, const Strip& strip, const DeviationS
   Picture picture = blank_picture(rows * size, columns * size, {255, 255, 255, 0});
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c)
-      paint_cell(picture, r * size, c * size, size, map.cell(strip.row_begin + static_cast<std::size_t>(r), static_cast<std::size_t>(c)), scale);
+      paint_cell(picture, r * size, c * size, size,
+                 map.cell(strip.row_begin + static_cast<std::size_t>(r), static_cast<std::size_t>(c)), scale);
   return picture;
 }
 
@@ -79,7 +82,8 @@ void draw_marks(Canvas& canvas, const PlotArea& area, const std::vector<LineMark
     canvas.line({area.rect.left - 1.0, y}, {area.rect.left, y}, {colours::grey, 0.2, {}});
     if (y - last < 1.15 * text_mm) continue;
     last = y;
-    canvas.text({area.rect.left - 1.4, y}, mark.label, {.size_mm = text_mm, .bold = mark.strong, .across = Across::right, .down = Down::middle});
+    canvas.text({area.rect.left - 1.4, y}, mark.label,
+                {.size_mm = text_mm, .bold = mark.strong, .across = Across::right, .down = Down::middle});
   }
   const double x = area.rect.left - left_mm + 1.0;
   const TextStyle side{.size_mm = text_mm, .colour = colours::grey, .across = Across::centre, .turn_rad = -M_PI / 2.0};
@@ -94,15 +98,18 @@ void draw_rounds(Canvas& canvas, const PlotArea& area, const std::vector<JobRoun
     if (to <= from) continue;
     for (double s : {round.from_m, round.to_m})
       if (s >= area.x_from - 1e-6 && s <= area.x_to + 1e-6)
-        canvas.line({area.paper_x(s), area.rect.top - 1.5}, {area.paper_x(s), area.rect.bottom()}, {colours::black, 0.25, {}});
+        canvas.line({area.paper_x(s), area.rect.top - 1.5}, {area.paper_x(s), area.rect.bottom()},
+                    {colours::black, 0.25, {}});
     const double x = (area.paper_x(from) + area.paper_x(to)) / 2.0;
     if (x - last_label < 6.0) continue;
     last_label = x;
-    canvas.text({x, area.rect.top - 0.5}, std::to_string(round.number), {.size_mm = text_mm, .bold = true, .across = Across::centre, .down = Down::bottom});
+    canvas.text({x, area.rect.top - 0.5}, std::to_string(round.number),
+                {.size_mm = text_mm, .bold = true, .across = Across::centre, .down = Down::bottom});
   }
 }
 
-void draw_strip(Canvas& canvas, const Rect& rect, const DeviationMap& map, const Strip& strip, const DeviationScale& scale, const MapTexts& texts) {
+void draw_strip(Canvas& canvas, const Rect& rect, const DeviationMap& map, const Strip& strip,
+                const DeviationScale& scale, const MapTexts& texts) {
   const PlotArea area{rect, map.from_m + static_cast<double>(strip.row_begin) * map.step_s_m,
                       map.from_m + static_cast<double>(strip.row_end) * map.step_s_m, 0.0,
                       static_cast<double>(map.columns) * map.step_q_m};
@@ -114,7 +121,8 @@ void draw_strip(Canvas& canvas, const Rect& rect, const DeviationMap& map, const
   const Ticks ticks = nice_ticks(area.x_from, area.x_to, 12);
   for (double s : ticks.values) {
     canvas.line({area.paper_x(s), rect.bottom()}, {area.paper_x(s), rect.bottom() + 1.0}, {colours::grey, 0.2, {}});
-    canvas.text({area.paper_x(s), rect.bottom() + 1.2}, fixed(s, ticks.decimals), {.size_mm = text_mm, .across = Across::centre});
+    canvas.text({area.paper_x(s), rect.bottom() + 1.2}, fixed(s, ticks.decimals),
+                {.size_mm = text_mm, .across = Across::centre});
   }
 }
 
@@ -126,7 +134,8 @@ void draw_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, 
   canvas.frame(unseen, {colours::grey, 0.12, {}});
   canvas.fill(guessed, mixed(deviation_colour(scale, 0.6 * scale.most_m), colours::white, 0.55));
   for (int i = 0; i < 8; ++i)
-    canvas.disc({guessed.left + 0.5 + i % 4, guessed.top + 0.8 + 1.0 * (i / 4)}, 0.12, mixed(deviation_colour(scale, 0.6 * scale.most_m), colours::black, 0.5));
+    canvas.disc({guessed.left + 0.5 + i % 4, guessed.top + 0.8 + 1.0 * (i / 4)}, 0.12,
+                mixed(deviation_colour(scale, 0.6 * scale.most_m), colours::black, 0.5));
   canvas.frame(guessed, {colours::grey, 0.12, {}});
   canvas.text({x + 5.0, unseen.centre().y()}, "not seen", {.size_mm = text_mm, .down = Down::middle});
   canvas.text({x + 5.0, guessed.centre().y()}, "interpolated", {.size_mm = text_mm, .down = Down::middle});
@@ -143,13 +152,17 @@ std::vector<float> seen_deviations(const DeviationMap& map) {
 }
 
 double deviation_map_height(const DeviationMap& map, double width_mm) {
-  return static_cast<double>(std::max<std::size_t>(1, strips_of(map).size())) * (strip_height(map, width_mm) + rounds_mm + below_mm) + legend_mm;
+  return static_cast<double>(std::max<std::size_t>(1, strips_of(map).size())) *
+             (strip_height(map, width_mm) + rounds_mm + below_mm) +
+         legend_mm;
 }
 
-void draw_deviation_map(Canvas& canvas, const Rect& rect, const DeviationMap& map, const DeviationScale& scale, const MapTexts& texts) {
+void draw_deviation_map(Canvas& canvas, const Rect& rect, const DeviationMap& map, const DeviationScale& scale,
+                        const MapTexts& texts) {
   const std::vector<Strip> strips = strips_of(map);
   if (strips.empty() || map.columns == 0) {
-    canvas.text(rect.centre(), "no deviation map", {.colour = colours::grey, .across = Across::centre, .down = Down::middle});
+    canvas.text(rect.centre(), "no deviation map",
+                {.colour = colours::grey, .across = Across::centre, .down = Down::middle});
     return;
   }
   const double width = rect.width - left_mm - 3.0;
@@ -181,7 +194,8 @@ std::vector<LineMark> line_marks(const DesignTunnel& design, const DeviationMap&
   const Ticks ticks = nice_ticks(-half, half, 12);
   for (double p : ticks.values)
     if (p != 0.0) marks.push_back({q_at(p), with_sign(p, ticks.decimals), false});
-  for (const ProfileCorner& corner : profile.corners()) marks.push_back({q_at(corner.p_m), "corner " + with_sign(corner.p_m, 1), true});
+  for (const ProfileCorner& corner : profile.corners())
+    marks.push_back({q_at(corner.p_m), "corner " + with_sign(corner.p_m, 1), true});
   // Strong marks first where labels would overlap: a weak one near a strong one goes.
   std::erase_if(marks, [&](const LineMark& m) {
     return !m.strong && std::any_of(marks.begin(), marks.end(), [&](const LineMark& s) {

@@ -21,7 +21,7 @@ struct LineMark {
 
 /// What stands around the map.
 struct MapTexts {
-  std::string line = "profile";      ///< the line the deviations are from
+  std::string line = "profile";  ///< the line the deviations are from
   std::vector<LineMark> marks;
   std::vector<JobRound> rounds;
 };
@@ -38,6 +38,7 @@ double deviation_map_height(const DeviationMap& map, double width_mm);
 /// Draws the map (long ones in strips below each other) with axes and legend. Left wall on top, crown in the middle,
 /// chainage to the right: the tunnel as seen from above, opened at the floor. Unseen cells are hatched, interpolated
 /// ones pale and dotted.
-void draw_deviation_map(Canvas& canvas, const Rect& rect, const DeviationMap& map, const DeviationScale& scale, const MapTexts& texts);
+void draw_deviation_map(Canvas& canvas, const Rect& rect, const DeviationMap& map, const DeviationScale& scale,
+                        const MapTexts& texts);
 
 }  // namespace adit::render

@@ -16,8 +16,9 @@ double draw_scale_bar(Canvas& canvas, const PaperPoint& at, double mm_per_m, dou
   canvas.fill(bar, colours::white);
   canvas.fill(Rect{bar.left, bar.top, length_mm / 2.0, height}, colours::black);
   canvas.frame(bar, pen);
-  const std::string label = length_m < 1.0 ? fixed(100.0 * length_m, length_m < 0.1 ? 1 : 0) + " cm"
-                                           : fixed(length_m, std::abs(length_m - std::round(length_m)) > 1e-6 ? 1 : 0) + " m";
+  const std::string label = length_m < 1.0
+                                ? fixed(100.0 * length_m, length_m < 0.1 ? 1 : 0) + " cm"
+                                : fixed(length_m, std::abs(length_m - std::round(length_m)) > 1e-6 ? 1 : 0) + " m";
   canvas.text({bar.right(), bar.top - 0.3}, label,
               {.size_mm = text_mm, .across = Across::right, .down = Down::bottom, .halo_mm = 0.3});
   canvas.text({bar.left, bar.top - 0.3}, "0", {.size_mm = text_mm, .down = Down::bottom, .halo_mm = 0.3});
@@ -28,7 +29,8 @@ void draw_north_arrow(Canvas& canvas, const PaperPoint& centre, double length_mm
   const PaperPoint up(std::sin(clockwise_rad), -std::cos(clockwise_rad));
   const PaperPoint side(-up.y(), up.x());
   const double half = length_mm / 2.0;
-  canvas.fill({{centre + up * half, centre - up * half + side * (0.3 * half), centre - up * (0.6 * half)}}, colours::black);
+  canvas.fill({{centre + up * half, centre - up * half + side * (0.3 * half), centre - up * (0.6 * half)}},
+              colours::black);
   canvas.polyline({centre + up * half, centre - up * half - side * (0.3 * half), centre - up * (0.6 * half)},
                   {colours::black, 0.2, {}}, true);
   canvas.text(centre + up * (half + 1.8), "N",
@@ -54,7 +56,8 @@ void draw_deviation_legend(Canvas& canvas, const Rect& rect, const DeviationScal
                 {.size_mm = text_mm, .across = Across::centre});
   }
   canvas.text({rect.right() + 5.0, box_top + box_height + 0.3}, "cm", {.size_mm = text_mm});
-  canvas.text({zero - 1.0, rect.top}, "underbreak", {.size_mm = text_mm, .colour = colours::underbreak, .across = Across::right});
+  canvas.text({zero - 1.0, rect.top}, "underbreak",
+              {.size_mm = text_mm, .colour = colours::underbreak, .across = Across::right});
   canvas.text({zero + 1.0, rect.top}, "overbreak", {.size_mm = text_mm, .colour = colours::red});
 }
 

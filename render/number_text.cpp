@@ -12,11 +12,14 @@ constexpr const char* nothing = "\u2013";
 
 std::string digits(double magnitude, int decimals) {
   char buffer[400];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, magnitude, std::chars_format::fixed, decimals);
+  const auto [end, error] =
+      std::to_chars(buffer, buffer + sizeof buffer, magnitude, std::chars_format::fixed, decimals);
   return error == std::errc() ? std::string(buffer, end) : std::string(nothing);
 }
 
-bool all_zero(const std::string& text) { return text.find_first_of("123456789") == std::string::npos; }
+bool all_zero(const std::string& text) {
+  return text.find_first_of("123456789") == std::string::npos;
+}
 
 }  // namespace
 
@@ -33,7 +36,7 @@ std::string with_sign(double value, int decimals) {
 
 std::string grouped(unsigned long long value) {
   std::string text = std::to_string(value);
-  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, ",");
+  for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, 1, ',');
   return text;
 }
 

@@ -15,11 +15,13 @@ struct Picture {
   std::vector<std::uint8_t> rgba;
 
   std::array<std::uint8_t, 4> pixel(int x, int y) const {
-    const std::size_t at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    const std::size_t at =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
     return {rgba[at], rgba[at + 1], rgba[at + 2], rgba[at + 3]};
   }
   void set_pixel(int x, int y, const std::array<std::uint8_t, 4>& value) {
-    const std::size_t at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    const std::size_t at =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
     for (std::size_t i = 0; i < 4; ++i) rgba[at + i] = value[i];
   }
 };

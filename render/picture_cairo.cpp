@@ -9,10 +9,13 @@ namespace {
 
 using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 
-std::uint32_t premultiplied(std::uint32_t value, std::uint32_t alpha) { return (value * alpha + 127) / 255; }
+std::uint32_t premultiplied(std::uint32_t value, std::uint32_t alpha) {
+  return (value * alpha + 127) / 255;
+}
 
 std::uint8_t plain(std::uint32_t value, std::uint32_t alpha) {
-  return alpha == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(std::min<std::uint32_t>(255, (value * 255 + alpha / 2) / alpha));
+  return alpha == 0 ? std::uint8_t{0}
+                    : static_cast<std::uint8_t>(std::min<std::uint32_t>(255, (value * 255 + alpha / 2) / alpha));
 }
 
 bool opaque(const Picture& picture) {
@@ -74,8 +77,9 @@ Picture picture_of(cairo_surface_t* surface) {
       std::uint32_t value = 0;
       std::memcpy(&value, rows + static_cast<std::size_t>(y) * stride + 4 * static_cast<std::size_t>(x), 4);
       const std::uint32_t alpha = has_alpha ? value >> 24 : 255;
-      picture.set_pixel(x, y, {plain(value >> 16 & 255, alpha), plain(value >> 8 & 255, alpha), plain(value & 255, alpha),
-                               static_cast<std::uint8_t>(alpha)});
+      picture.set_pixel(x, y,
+                        {plain(value >> 16 & 255, alpha), plain(value >> 8 & 255, alpha), plain(value & 255, alpha),
+                         static_cast<std::uint8_t>(alpha)});
     }
   return picture;
 }
@@ -93,7 +97,8 @@ Picture picture_from_png(const std::string& bytes) {
   const Surface surface(cairo_image_surface_create_from_png_stream(take, &reading), cairo_surface_destroy);
   if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS) throw Error("these bytes are no PNG picture");
   const auto format = cairo_image_surface_get_format(surface.get());
-  if (format != CAIRO_FORMAT_ARGB32 && format != CAIRO_FORMAT_RGB24) throw Error("a PNG picture of 8 bits a channel is needed");
+  if (format != CAIRO_FORMAT_ARGB32 && format != CAIRO_FORMAT_RGB24)
+    throw Error("a PNG picture of 8 bits a channel is needed");
   return picture_of(surface.get());
 }
 

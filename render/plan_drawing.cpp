@@ -64,13 +64,15 @@ void draw_grid_crosses(Canvas& canvas, const PlotArea& area, const Turn& turn) {
       const Eigen::Vector2d p = turn.turned({e, n});
       if (p.x() < area.x_from || p.x() > area.x_to || p.y() < area.y_from || p.y() > area.y_to) continue;
       const PaperPoint at = area.at(p);
-      const Eigen::Vector2d east(turn.along.x(), turn.along.y());  // direction of east on the paper: (cos, +sin) with y down
+      const Eigen::Vector2d east(turn.along.x(),
+                                 turn.along.y());  // direction of east on the paper: (cos, +sin) with y down
       const PaperPoint north(-east.y(), east.x());
       canvas.line(at - 2.0 * PaperPoint(east.x(), east.y()), at + 2.0 * PaperPoint(east.x(), east.y()), pen);
       canvas.line(at - 2.0 * north, at + 2.0 * north, pen);
       const Rect room = area.rect.inset(1.0);
       if (at.x() > room.right() - 16.0 || at.y() > room.bottom() - 6.0) continue;
-      canvas.text(at + PaperPoint(0.8, 0.5), "E " + fixed(e, 0) + "\nN " + fixed(n, 0), {.size_mm = 1.7, .colour = colours::grey});
+      canvas.text(at + PaperPoint(0.8, 0.5), "E " + fixed(e, 0) + "\nN " + fixed(n, 0),
+                  {.size_mm = 1.7, .colour = colours::grey});
     }
 }
 
@@ -81,7 +83,8 @@ void draw_axis(Canvas& canvas, const PlotArea& area, const Plan& plan, const Tur
   canvas.polyline(points, {colours::ink_blue, 0.35, {4.0, 0.8, 0.6, 0.8}});
   const Ticks ticks = nice_ticks(plan.axis.front().chainage_m, plan.axis.back().chainage_m, 9);
   for (double s : ticks.values) {
-    auto next = std::lower_bound(plan.axis.begin(), plan.axis.end(), s - 1e-6, [](const PlanAxisPoint& p, double v) { return p.chainage_m < v; });
+    auto next = std::lower_bound(plan.axis.begin(), plan.axis.end(), s - 1e-6,
+                                 [](const PlanAxisPoint& p, double v) { return p.chainage_m < v; });
     next = std::clamp(next, plan.axis.begin() + 1, plan.axis.end() - 1);
     const auto& a = *(next - 1);
     const auto& b = *next;
@@ -91,20 +94,24 @@ void draw_axis(Canvas& canvas, const PlotArea& area, const Plan& plan, const Tur
     const PaperPoint along = (to - from).normalized();
     const PaperPoint side(-along.y(), along.x());
     canvas.line(at - side * 1.2, at + side * 1.2, {colours::ink_blue, 0.3, {}});
-    canvas.text(at + side * 1.8, fixed(s, ticks.decimals), {.size_mm = text_mm, .colour = colours::ink_blue, .across = Across::centre, .halo_mm = 0.3});
+    canvas.text(at + side * 1.8, fixed(s, ticks.decimals),
+                {.size_mm = text_mm, .colour = colours::ink_blue, .across = Across::centre, .halo_mm = 0.3});
   }
 }
 
-void draw_places(Canvas& canvas, const PlotArea& area, const Turn& turn, const std::vector<PlanPlace>& places, bool station) {
+void draw_places(Canvas& canvas, const PlotArea& area, const Turn& turn, const std::vector<PlanPlace>& places,
+                 bool station) {
   for (const PlanPlace& place : places) {
     const PaperPoint at = area.at(turn.turned(place.position));
     if (station) {
       canvas.fill({{at + PaperPoint(0.0, -1.5), at + PaperPoint(1.3, 0.9), at + PaperPoint(-1.3, 0.9)}}, colours::red);
-      canvas.text(at - PaperPoint(0.0, 1.8), place.name, {.size_mm = text_mm, .bold = true, .across = Across::centre, .down = Down::bottom, .halo_mm = 0.3});
+      canvas.text(at - PaperPoint(0.0, 1.8), place.name,
+                  {.size_mm = text_mm, .bold = true, .across = Across::centre, .down = Down::bottom, .halo_mm = 0.3});
     } else {
       canvas.line(at - PaperPoint(1.0, 0.0), at + PaperPoint(1.0, 0.0), {colours::green, 0.3, {}});
       canvas.line(at - PaperPoint(0.0, 1.0), at + PaperPoint(0.0, 1.0), {colours::green, 0.3, {}});
-      canvas.text(at + PaperPoint(1.0, -0.6), place.name, {.size_mm = 1.9, .colour = colours::green, .down = Down::bottom, .halo_mm = 0.3});
+      canvas.text(at + PaperPoint(1.0, -0.6), place.name,
+                  {.size_mm = 1.9, .colour = colours::green, .down = Down::bottom, .halo_mm = 0.3});
     }
   }
 }
@@ -113,7 +120,8 @@ void draw_places(Canvas& canvas, const PlotArea& area, const Turn& turn, const s
 
 void draw_plan(Canvas& canvas, const Rect& rect, const Plan& plan) {
   if (plan.axis.empty() && plan.stations.empty() && plan.control.empty()) {
-    canvas.text(rect.centre(), "nothing to show in plan", {.colour = colours::grey, .across = Across::centre, .down = Down::middle});
+    canvas.text(rect.centre(), "nothing to show in plan",
+                {.colour = colours::grey, .across = Across::centre, .down = Down::middle});
     return;
   }
   const Turn turn = turn_of(plan);

@@ -82,8 +82,12 @@ void draw_extreme(Canvas& canvas, const PlotArea& area, const Section& section, 
   canvas.line(at, end, {colour, 0.2, {}});
   const bool to_right = away.x() >= 0.0;
   canvas.text(end + PaperPoint(to_right ? 0.4 : -0.4, 0.0), with_sign(over ? value_m : -value_m, 2) + " m",
-              {.size_mm = text_mm + 0.1, .colour = colour, .bold = true, .across = to_right ? Across::left : Across::right,
-               .down = Down::middle, .halo_mm = 0.3});
+              {.size_mm = text_mm + 0.1,
+               .colour = colour,
+               .bold = true,
+               .across = to_right ? Across::left : Across::right,
+               .down = Down::middle,
+               .halo_mm = 0.3});
 }
 
 struct KeyLine {
@@ -124,15 +128,19 @@ void draw_numbers(Canvas& canvas, const PaperPoint& at, const Section& section) 
   const SectionAreas& a = section.lines.front();
   const TextStyle style{.size_mm = text_mm + 0.1};
   const double step = 1.45 * style.size_mm;
-  canvas.text(at, "design " + fixed(a.design_area_m2, 2) + "  excavated " + fixed(a.area_m2, 2) + "  over " +
-                      fixed(a.overbreak_m2, 2) + "  under " + fixed(a.underbreak_m2, 2) + " m\u00b2", style);
-  canvas.text(at + PaperPoint(0.0, step), "max over " + fixed(a.max_overbreak_m, 2) + " m at p " + fixed(a.max_overbreak_p_m, 1) +
-                                              "  max under " + fixed(a.max_underbreak_m, 2) + " m at p " +
-                                              fixed(a.max_underbreak_p_m, 1), style);
+  canvas.text(at,
+              "design " + fixed(a.design_area_m2, 2) + "  excavated " + fixed(a.area_m2, 2) + "  over " +
+                  fixed(a.overbreak_m2, 2) + "  under " + fixed(a.underbreak_m2, 2) + " m\u00b2",
+              style);
+  canvas.text(at + PaperPoint(0.0, step),
+              "max over " + fixed(a.max_overbreak_m, 2) + " m at p " + fixed(a.max_overbreak_p_m, 1) + "  max under " +
+                  fixed(a.max_underbreak_m, 2) + " m at p " + fixed(a.max_underbreak_p_m, 1),
+              style);
   TextStyle coverage = style;
   if (a.coverage < 0.8) coverage.colour = colours::red;
-  canvas.text(at + PaperPoint(0.0, 2.0 * step), "against " + a.line + "  measured " + percent(a.coverage) + "  interpolated " +
-                                                    percent(a.interpolated), coverage);
+  canvas.text(at + PaperPoint(0.0, 2.0 * step),
+              "against " + a.line + "  measured " + percent(a.coverage) + "  interpolated " + percent(a.interpolated),
+              coverage);
 }
 
 }  // namespace
@@ -159,8 +167,9 @@ std::string section_title(const Section& section) {
 
 void draw_section(Canvas& canvas, const Rect& rect, const Section& section, const std::vector<SectionLine>& lines) {
   canvas.text({rect.left, rect.top}, section_title(section), {.size_mm = 3.0, .bold = true});
-  canvas.text({rect.left, rect.top + 4.2}, "looking up-chainage, axis E " + fixed(section.axis_site.x(), 3) + "  N " +
-                                               fixed(section.axis_site.y(), 3) + "  H " + fixed(section.axis_site.z(), 3),
+  canvas.text({rect.left, rect.top + 4.2},
+              "looking up-chainage, axis E " + fixed(section.axis_site.x(), 3) + "  N " +
+                  fixed(section.axis_site.y(), 3) + "  H " + fixed(section.axis_site.z(), 3),
               {.size_mm = text_mm - 0.1, .colour = colours::grey});
   const double numbers = 3.0 * 1.45 * (text_mm + 0.1) + 0.5;
   const Rect room{rect.left + 7.5, rect.top + 8.0, rect.width - 8.0, rect.height - 8.0 - 7.2 - numbers};
@@ -193,7 +202,8 @@ void draw_section(Canvas& canvas, const Rect& rect, const Section& section, cons
                 {.size_mm = text_mm + 0.4, .colour = colours::red, .across = Across::centre, .halo_mm = 0.4});
   draw_axes(canvas, area, texts);
   const double mm_per_m = 1000.0 / scale;
-  draw_scale_bar(canvas, {area.rect.right() - 1.0 - mm_per_m * 2.0, area.rect.bottom() - 1.0}, mm_per_m, 2.0 * mm_per_m, text_mm - 0.3);
+  draw_scale_bar(canvas, {area.rect.right() - 1.0 - mm_per_m * 2.0, area.rect.bottom() - 1.0}, mm_per_m, 2.0 * mm_per_m,
+                 text_mm - 0.3);
   canvas.text({rect.right(), rect.top + 0.4}, "1 : " + fixed(scale, 0), {.size_mm = text_mm, .across = Across::right});
   draw_numbers(canvas, {rect.left, rect.bottom() - numbers + 0.5}, section);
 }

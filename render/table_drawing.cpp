@@ -15,7 +15,8 @@ TextStyle cell_style(const Table& table, std::size_t column, bool heading) {
   return style;
 }
 
-void draw_cell(Canvas& canvas, const PaperPoint& corner, const Table& table, std::size_t column, const TableCell& cell, bool heading) {
+void draw_cell(Canvas& canvas, const PaperPoint& corner, const Table& table, std::size_t column, const TableCell& cell,
+               bool heading) {
   TextStyle style = cell_style(table, column, heading);
   style.colour = cell.colour;
   style.bold = heading || cell.bold;
@@ -65,7 +66,8 @@ double row_height(const Canvas& canvas, const Table& table, std::size_t row) {
   return height + 2.0 * pad_y;
 }
 
-TablePart draw_table(Canvas& canvas, const PaperPoint& at, const Table& table, std::size_t first_row, double room_mm, bool force) {
+TablePart draw_table(Canvas& canvas, const PaperPoint& at, const Table& table, std::size_t first_row, double room_mm,
+                     bool force) {
   TablePart part{first_row, header_height(canvas, table)};
   if (!force && part.height_mm > room_mm) return {first_row, 0.0};
   draw_header(canvas, at, table, part.height_mm);
@@ -80,7 +82,8 @@ TablePart draw_table(Canvas& canvas, const PaperPoint& at, const Table& table, s
       corner.x() += table.columns[i].width_mm;
     }
     part.height_mm += height;
-    canvas.line(at + PaperPoint(0.0, part.height_mm), at + PaperPoint(total_width(table), part.height_mm), {colours::light_grey, 0.1, {}});
+    canvas.line(at + PaperPoint(0.0, part.height_mm), at + PaperPoint(total_width(table), part.height_mm),
+                {colours::light_grey, 0.1, {}});
   }
   return part;
 }

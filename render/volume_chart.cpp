@@ -26,7 +26,8 @@ PlotArea bar_area(const Rect& rect, const std::vector<Section>& sections) {
     }
   const double half = sections.size() > 1 ? (sections[1].chainage_m - sections[0].chainage_m) / 2.0 : 0.5;
   const double top = over > 0.0 ? 1.12 * over : 0.1;
-  return {rect, sections.front().chainage_m - half, sections.back().chainage_m + half, -std::max(1.12 * under, 0.06 * top), top};
+  return {rect, sections.front().chainage_m - half, sections.back().chainage_m + half,
+          -std::max(1.12 * under, 0.06 * top), top};
 }
 
 void draw_bars(Canvas& canvas, const PlotArea& area, const std::vector<Section>& sections) {
@@ -51,11 +52,13 @@ void draw_round_bounds(Canvas& canvas, const PlotArea& area, const std::vector<J
     const double from = std::max(round.from_m, area.x_from), to = std::min(round.to_m, area.x_to);
     if (to <= from) continue;
     for (double s : {from, to})
-      canvas.line({area.paper_x(s), area.rect.top - 1.0}, {area.paper_x(s), area.rect.bottom()}, {colours::grey, 0.2, {0.8, 0.8}});
+      canvas.line({area.paper_x(s), area.rect.top - 1.0}, {area.paper_x(s), area.rect.bottom()},
+                  {colours::grey, 0.2, {0.8, 0.8}});
     const double x = (area.paper_x(from) + area.paper_x(to)) / 2.0;
     if (x - last_label < 6.0) continue;
     last_label = x;
-    canvas.text({x, area.rect.top - 0.4}, std::to_string(round.number), {.size_mm = text_mm, .bold = true, .across = Across::centre, .down = Down::bottom});
+    canvas.text({x, area.rect.top - 0.4}, std::to_string(round.number),
+                {.size_mm = text_mm, .bold = true, .across = Across::centre, .down = Down::bottom});
   }
 }
 
@@ -80,7 +83,11 @@ void draw_excess(Canvas& canvas, const PlotArea& bars, const std::vector<Section
     canvas.text(foot + PaperPoint(1.4, 0.0), fixed(v, ticks.decimals), {.size_mm = text_mm, .down = Down::middle});
   }
   canvas.text({area.rect.right() + 10.5, area.rect.centre().y()}, "excess added up [m\u00b3]",
-              {.size_mm = text_mm, .colour = colours::grey, .across = Across::centre, .down = Down::bottom, .turn_rad = M_PI / 2.0});
+              {.size_mm = text_mm,
+               .colour = colours::grey,
+               .across = Across::centre,
+               .down = Down::bottom,
+               .turn_rad = M_PI / 2.0});
 }
 
 }  // namespace
@@ -88,13 +95,16 @@ void draw_excess(Canvas& canvas, const PlotArea& bars, const std::vector<Section
 std::vector<double> accumulated_excess_m3(const std::vector<Section>& sections) {
   std::vector<double> sums(sections.size(), 0.0);
   for (std::size_t i = 1; i < sections.size(); ++i)
-    sums[i] = sums[i - 1] + (sections[i].chainage_m - sections[i - 1].chainage_m) * (excess_m2(sections[i]) + excess_m2(sections[i - 1])) / 2.0;
+    sums[i] = sums[i - 1] + (sections[i].chainage_m - sections[i - 1].chainage_m) *
+                                (excess_m2(sections[i]) + excess_m2(sections[i - 1])) / 2.0;
   return sums;
 }
 
-void draw_volume_chart(Canvas& canvas, const Rect& rect, const std::vector<Section>& sections, const std::vector<JobRound>& rounds) {
+void draw_volume_chart(Canvas& canvas, const Rect& rect, const std::vector<Section>& sections,
+                       const std::vector<JobRound>& rounds) {
   if (sections.empty()) {
-    canvas.text(rect.centre(), "no sections", {.colour = colours::grey, .across = Across::centre, .down = Down::middle});
+    canvas.text(rect.centre(), "no sections",
+                {.colour = colours::grey, .across = Across::centre, .down = Down::middle});
     return;
   }
   const PlotArea area = bar_area({rect.left + 12.0, rect.top + 4.0, rect.width - 26.0, rect.height - 18.0}, sections);
@@ -106,13 +116,15 @@ void draw_volume_chart(Canvas& canvas, const Rect& rect, const std::vector<Secti
   draw_axes(canvas, area, texts);
   const double y = rect.bottom() - 2.2;
   double x = rect.left + 12.0;
-  for (const auto& [name, colour] : {NamedColour{"overbreak area", colours::overbreak}, NamedColour{"underbreak area", colours::underbreak}}) {
+  for (const auto& [name, colour] :
+       {NamedColour{"overbreak area", colours::overbreak}, NamedColour{"underbreak area", colours::underbreak}}) {
     canvas.fill(Rect{x, y - 1.2, 2.4, 2.4}, colour);
     canvas.text({x + 3.4, y}, name, {.size_mm = text_mm, .down = Down::middle});
     x += 32.0;
   }
   canvas.line({x, y}, {x + 5.0, y}, excess_pen);
-  canvas.text({x + 6.0, y}, "overbreak minus underbreak, added up by average end areas", {.size_mm = text_mm, .down = Down::middle});
+  canvas.text({x + 6.0, y}, "overbreak minus underbreak, added up by average end areas",
+              {.size_mm = text_mm, .down = Down::middle});
 }
 
 }  // namespace adit::render
