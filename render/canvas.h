@@ -46,10 +46,10 @@ struct TextStyle {
   bool bold = false;
   Across across = Across::left;  ///< which side of the text lies at the point
   Down down = Down::top;
-  double turn_rad = 0.0;  ///< clockwise on the paper, about the point
-  double wrap_mm = 0.0;   ///< lines are broken at this width; 0: never
-  double shorten_mm = 0.0;          ///< one line; wider text ends in an ellipsis; 0: never
-  double halo_mm = 0.0;   ///< a white rim, so that text can be read on a picture
+  double turn_rad = 0.0;    ///< clockwise on the paper, about the point
+  double wrap_mm = 0.0;     ///< lines are broken at this width; 0: never
+  double shorten_mm = 0.0;  ///< one line; wider text ends in an ellipsis; 0: never
+  double halo_mm = 0.0;     ///< a white rim, so that text can be read on a picture
   Colour halo = colours::white;
 };
 

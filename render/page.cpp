@@ -13,7 +13,9 @@ const Pen rule{colours::ink_blue, 0.4, {}};
 
 }  // namespace
 
-double PageFlow::width_mm() const { return inner_mm; }
+double PageFlow::width_mm() const {
+  return inner_mm;
+}
 
 void PageFlow::draw_frame() {
   const double right = a4_width_mm - right_mm;
@@ -24,17 +26,21 @@ void PageFlow::draw_frame() {
     style.shorten_mm = shorten;
     return style;
   };
-  canvas_.text({left_mm, head_mm}, title_.job, {.size_mm = 2.8, .bold = true, .down = Down::bottom, .shorten_mm = 0.72 * inner_mm});
+  canvas_.text({left_mm, head_mm}, title_.job,
+               {.size_mm = 2.8, .bold = true, .down = Down::bottom, .shorten_mm = 0.72 * inner_mm});
   TextStyle version = aligned(Across::right, 40.0);
   version.down = Down::bottom;
   canvas_.text({right, head_mm}, "Adit " + title_.version, version);
   canvas_.line({left_mm, head_mm + 1.0}, {right, head_mm + 1.0}, rule);
   const double foot = a4_height_mm - 13.5;
   canvas_.line({left_mm, foot - 1.2}, {right, foot - 1.2}, {colours::light_grey, 0.2, {}});
-  canvas_.text({left_mm, foot}, title_.client.empty() ? "" : "Client: " + title_.client, aligned(Across::left, 0.36 * inner_mm));
-  canvas_.text({left_mm + 0.38 * inner_mm, foot}, title_.surveyor.empty() ? "" : "Surveyor: " + title_.surveyor, aligned(Across::left, 0.34 * inner_mm));
+  canvas_.text({left_mm, foot}, title_.client.empty() ? "" : "Client: " + title_.client,
+               aligned(Across::left, 0.36 * inner_mm));
+  canvas_.text({left_mm + 0.38 * inner_mm, foot}, title_.surveyor.empty() ? "" : "Surveyor: " + title_.surveyor,
+               aligned(Across::left, 0.34 * inner_mm));
   canvas_.text({left_mm + 0.80 * inner_mm, foot}, title_.date, aligned(Across::centre, 0.14 * inner_mm));
-  canvas_.text({right, foot}, "page " + std::to_string(page_) + " of " + std::to_string(title_.pages), aligned(Across::right, 0.2 * inner_mm));
+  canvas_.text({right, foot}, "page " + std::to_string(page_) + " of " + std::to_string(title_.pages),
+               aligned(Across::right, 0.2 * inner_mm));
 }
 
 void PageFlow::next_page() {
@@ -43,7 +49,8 @@ void PageFlow::next_page() {
   draw_frame();
   y_ = body_top_mm;
   if (heading_.empty()) return;
-  canvas_.text({left_mm, 16.0}, heading_ + (continued_ ? " (continued)" : ""), {.size_mm = 4.2, .colour = colours::ink_blue, .bold = true, .shorten_mm = inner_mm});
+  canvas_.text({left_mm, 16.0}, heading_ + (continued_ ? " (continued)" : ""),
+               {.size_mm = 4.2, .colour = colours::ink_blue, .bold = true, .shorten_mm = inner_mm});
   y_ = body_top_mm + 2.5;
 }
 
@@ -54,7 +61,9 @@ void PageFlow::start(const std::string& heading) {
   continued_ = true;
 }
 
-Rect PageFlow::room() const { return {left_mm, y_, inner_mm, body_bottom_mm - y_}; }
+Rect PageFlow::room() const {
+  return {left_mm, y_, inner_mm, body_bottom_mm - y_};
+}
 
 Rect PageFlow::take(double height_mm) {
   if (y_ + height_mm > body_bottom_mm + 1e-9 && y_ > body_top_mm + 3.0) next_page();

@@ -41,7 +41,8 @@ class PageFlow {
 
   /// A smaller heading, kept together with at least keep_mm of what follows.
   void subheading(const std::string& words, double keep_mm = 25.0);
-  void paragraph(const std::string& words, const Colour& colour = colours::black, double text_mm = 2.6, bool bold = false);
+  void paragraph(const std::string& words, const Colour& colour = colours::black, double text_mm = 2.6,
+                 bool bold = false);
   /// A table as wide as the page, split where needed, its header repeated.
   void table(Table table);
 

@@ -13,7 +13,8 @@ namespace {
 constexpr double picture_dpi = 150.0;
 
 // Draws all pages; returns how many there were.
-int draw_pages(Canvas& canvas, const ReportContent& content, const std::vector<ReportView>& views, int pages, const Progress& progress) {
+int draw_pages(Canvas& canvas, const ReportContent& content, const std::vector<ReportView>& views, int pages,
+               const Progress& progress) {
   const Job& job = *content.job;
   PageFlow flow(canvas, {job.name, job.client, job.surveyor, content.results->version, content.date, pages});
   add_title_page(flow, content, views);
@@ -44,7 +45,8 @@ Picture map_picture(const ReportContent& content) {
   Canvas canvas = Canvas::raster(width + 2.0 * margin, height + 2.0 * margin, picture_dpi);
   MapTexts texts{.line = "profile (offset 0)", .marks = {}, .rounds = content.job->rounds};
   if (content.design != nullptr) texts.marks = line_marks(*content.design, *content.map);
-  draw_deviation_map(canvas, {margin, margin, width, height}, *content.map, deviation_scale(seen_deviations(*content.map)), texts);
+  draw_deviation_map(canvas, {margin, margin, width, height}, *content.map,
+                     deviation_scale(seen_deviations(*content.map)), texts);
   return canvas.finish_picture();
 }
 
@@ -56,7 +58,8 @@ Picture chart_picture(const ReportContent& content) {
 
 Picture section_picture(const ReportContent& content, const Section& section) {
   Canvas canvas = Canvas::raster(130.0, 120.0, picture_dpi);
-  const auto lines = content.design != nullptr ? section_lines(*content.design, section.chainage_m) : std::vector<SectionLine>{};
+  const auto lines =
+      content.design != nullptr ? section_lines(*content.design, section.chainage_m) : std::vector<SectionLine>{};
   draw_section(canvas, {4.0, 3.0, 122.0, 114.0}, section, lines);
   return canvas.finish_picture();
 }
@@ -72,14 +75,17 @@ std::string section_file(const Section& section) {
 ReportFiles draw_report(const ReportContent& content, const GlContext& context, Progress& progress) {
   if (content.job == nullptr || content.results == nullptr) throw Error("a report needs a job and its results");
   ReportFiles files;
-  const auto add = [&](const std::string& name, const Picture& picture) { files.pictures.push_back({name, png_bytes(picture)}); };
+  const auto add = [&](const std::string& name, const Picture& picture) {
+    files.pictures.push_back({name, png_bytes(picture)});
+  };
   Progress viewing = progress.part(0.4, "3D pictures");
   const std::vector<ReportView> views = draw_views(content, context, viewing);
   for (const ReportView& view : views) add(view.name, view.picture);
   Progress paging = progress.part(0.4, "report");
   files.pdf = report_pdf(content, views, paging);
   if (content.map != nullptr && !content.map->cells.empty()) add("map.png", map_picture(content));
-  if (content.results->profile && !content.results->profile->sections.empty()) add("volumes.png", chart_picture(content));
+  if (content.results->profile && !content.results->profile->sections.empty())
+    add("volumes.png", chart_picture(content));
   const Progress drawing = progress.part(0.2, "section drawings");
   const std::vector<const Section*> sections = drawn_sections(content);
   for (std::size_t i = 0; i < sections.size(); ++i) {

@@ -23,18 +23,18 @@ struct OverviewCloud {
   std::vector<Eigen::Vector3f> points;
 };
 
-/// All a report is drawn from. job and results must be there; the rest may be absent and is then left out of the report,
-/// with a line that says so. Everything but job and results.sections[].axis_site is in the local frame.
+/// All a report is drawn from. job and results must be there; the rest may be absent and is then left out of the
+/// report, with a line that says so. Everything but job and results.sections[].axis_site is in the local frame.
 struct ReportContent {
   const Job* job = nullptr;
   const Results* results = nullptr;
   const DesignTunnel* design = nullptr;
   const DeviationMap* map = nullptr;
   const MeshArrays* mesh = nullptr;
-  std::vector<float> mesh_deviations_m;     ///< one for each mesh point, NaN where unknown; or empty
+  std::vector<float> mesh_deviations_m;  ///< one for each mesh point, NaN where unknown; or empty
   std::vector<OverviewCloud> clouds;
-  std::vector<ControlPoint> control;        ///< local frame
-  std::string date = "2000-01-01";          ///< ISO 8601, fixed by the caller: the same content gives the same bytes
+  std::vector<ControlPoint> control;  ///< local frame
+  std::string date = "2000-01-01";    ///< ISO 8601, fixed by the caller: the same content gives the same bytes
 };
 
 struct ReportPicture {

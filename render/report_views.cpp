@@ -32,7 +32,8 @@ std::vector<Eigen::Vector3d> some_points(const ReportContent& content, bool of_m
     for (std::size_t i = 0; i < content.mesh->points.size(); i += step) some.push_back(content.mesh->points[i]);
   } else {
     for (const OverviewCloud& cloud : content.clouds)
-      for (std::size_t i = 0; i < cloud.points.size(); i += cloud.points.size() / 5000 + 1) some.push_back(cloud.points[i].cast<double>());
+      for (std::size_t i = 0; i < cloud.points.size(); i += cloud.points.size() / 5000 + 1)
+        some.push_back(cloud.points[i].cast<double>());
   }
   return some;
 }
@@ -63,7 +64,8 @@ Path path_of(const ReportContent& content) {
     const std::vector<Eigen::Vector3d> box = box_corners(content);
     if (box.empty()) return path;
     const Eigen::Vector3d size = box.back() - box.front(), middle = (box.back() + box.front()) / 2.0;
-    const Eigen::Vector3d half = size.x() >= size.y() ? Eigen::Vector3d(size.x() / 2.2, 0, 0) : Eigen::Vector3d(0, size.y() / 2.2, 0);
+    const Eigen::Vector3d half =
+        size.x() >= size.y() ? Eigen::Vector3d(size.x() / 2.2, 0, 0) : Eigen::Vector3d(0, size.y() / 2.2, 0);
     line = {middle - half, middle + half};
   }
   path.start = line.front();
@@ -109,7 +111,8 @@ Scene scene_of_deviations(const ReportContent& content) {
 std::vector<Eigen::Vector3d> local_axis(const ReportContent& content) {
   std::vector<Eigen::Vector3d> axis;
   if (!content.results->profile) return axis;
-  for (const Section& section : content.results->profile->sections) axis.push_back(content.results->import.origin.to_local(section.axis_site));
+  for (const Section& section : content.results->profile->sections)
+    axis.push_back(content.results->import.origin.to_local(section.axis_site));
   return axis;
 }
 
@@ -134,9 +137,11 @@ std::vector<ReportView> draw_views(const ReportContent& content, const GlContext
   }
   if (has_mesh) {
     Scene scene = scene_of_deviations(content);
-    draw("deviation_along.png", "The rock surface from inside, looking up-chainage, coloured by its deviation.", scene, inside, along_height);
+    draw("deviation_along.png", "The rock surface from inside, looking up-chainage, coloured by its deviation.", scene,
+         inside, along_height);
     add_axis(scene, content, true);
-    draw("deviation_above.png", "The rock surface from outside, seen from above and the right, coloured by its deviation.", scene,
+    draw("deviation_above.png",
+         "The rock surface from outside, seen from above and the right, coloured by its deviation.", scene,
          oblique(some_points(content, true), path.heading, aspect), above_height);
     std::swap(views[views.size() - 2], views[views.size() - 1]);
   }

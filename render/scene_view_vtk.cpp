@@ -96,7 +96,8 @@ vtkSmartPointer<vtkLookupTable> class_table(const DeviationScale& scale) {
   return table;
 }
 
-void colour_by_deviation(vtkActor* actor, vtkPolyData* shape, const std::vector<float>& deviations_m, const DeviationScale& scale) {
+void colour_by_deviation(vtkActor* actor, vtkPolyData* shape, const std::vector<float>& deviations_m,
+                         const DeviationScale& scale) {
   vtkNew<vtkFloatArray> values;
   values->SetNumberOfTuples(static_cast<vtkIdType>(deviations_m.size()));
   std::copy(deviations_m.begin(), deviations_m.end(), values->GetPointer(0));
@@ -117,7 +118,8 @@ vtkSmartPointer<vtkActor> mesh_actor(const SceneMesh& mesh, const DeviationScale
   shape->SetPoints(points);
   shape->SetPolys(triangles);
   auto actor = actor_of(shape);
-  if (mesh.deviations_m.size() == mesh.surface.points.size()) colour_by_deviation(actor, shape, mesh.deviations_m, scale);
+  if (mesh.deviations_m.size() == mesh.surface.points.size())
+    colour_by_deviation(actor, shape, mesh.deviations_m, scale);
   set_colour(actor, mesh.colour);
   // Much ambient light: the colours must be those of the legend, the shading only hints at the form.
   actor->GetProperty()->SetAmbient(0.55);

@@ -6,11 +6,15 @@ namespace adit::render {
 namespace {
 
 constexpr const char* conventions[] = {
-    "Sections are vertical planes square to the plan tangent of the axis; chainage is the length along the plan axis (internal, without station equations).",
+    "Sections are vertical planes square to the plan tangent of the axis; chainage is the length along the plan axis "
+    "(internal, without station equations).",
     "Offset x is positive to the right looking up-chainage, height z positive above the grade line.",
-    "Deviation is measured along the outward normal of the design line in the section: positive outside (overbreak), negative inside (underbreak).",
-    "p is the arc length along the design line from the crown, clockwise looking up-chainage: negative on the left, positive on the right.",
-    "Volumes: slices of thickness ds hold ds times the double integral of (1 \u2212 k x) dx dz over the over- and underbreak areas, k being the plan curvature (right "
+    "Deviation is measured along the outward normal of the design line in the section: positive outside (overbreak), "
+    "negative inside (underbreak).",
+    "p is the arc length along the design line from the crown, clockwise looking up-chainage: negative on the left, "
+    "positive on the right.",
+    "Volumes: slices of thickness ds hold ds times the double integral of (1 \u2212 k x) dx dz over the over- and "
+    "underbreak areas, k being the plan curvature (right "
     "positive). Where nothing was seen the rock is taken to lie on the line.",
     "Poses are site-from-scan. Site coordinates are east, north, elevation in metres.",
     "Uncertainties are one standard deviation unless two (2\u03c3) are named."};
@@ -22,10 +26,13 @@ void add_inputs(PageFlow& flow, const ImportResult& import) {
     return;
   }
   Table table{{{"file", 62, false}, {"points", 24, true}, {"SHA-256", 92, false}}, {}, 2.0};
-  for (const InputRecord& input : import.inputs) table.rows.push_back({input.file, input.points > 0 ? grouped(input.points) : "", input.sha256});
+  for (const InputRecord& input : import.inputs)
+    table.rows.push_back({input.file, input.points > 0 ? grouped(input.points) : "", input.sha256});
   flow.table(table);
-  flow.paragraph("Project origin: E " + fixed(import.origin.position.x(), 0) + "  N " + fixed(import.origin.position.y(), 0) + "  H " + fixed(import.origin.position.z(), 0) +
-                     " m. Everything inside the program is site minus this.", colours::black, 2.4);
+  flow.paragraph("Project origin: E " + fixed(import.origin.position.x(), 0) + "  N " +
+                     fixed(import.origin.position.y(), 0) + "  H " + fixed(import.origin.position.z(), 0) +
+                     " m. Everything inside the program is site minus this.",
+                 colours::black, 2.4);
 }
 
 void add_notes(PageFlow& flow, const Results& results) {
@@ -39,9 +46,13 @@ void add_notes(PageFlow& flow, const Results& results) {
 
 void add_options(PageFlow& flow, const Job& job) {
   flow.subheading("Settings");
-  Table table{{{"group", 24, false}, {"setting", 38, false}, {"value", 18, true}, {"unit", 12, false}, {"meaning", 88, false}}, {}, 2.1};
+  Table table{
+      {{"group", 24, false}, {"setting", 38, false}, {"value", 18, true}, {"unit", 12, false}, {"meaning", 88, false}},
+      {},
+      2.1};
   for_each_group(job.options, [&](const char* group, const auto& options) {
-    for (const OptionRow& row : option_rows(group, options)) table.rows.push_back({row.group, row.name, row.value, row.unit, row.help});
+    for (const OptionRow& row : option_rows(group, options))
+      table.rows.push_back({row.group, row.name, row.value, row.unit, row.help});
   });
   flow.table(table);
 }
@@ -50,9 +61,19 @@ void add_mesh(PageFlow& flow, const Results& results) {
   if (!results.surface) return;
   const MeshSummary& m = results.surface->mesh;
   flow.subheading("Surface mesh");
-  Table table{{{"points", 20, true}, {"triangles", 20, true}, {"area m\u00b2", 20, true}, {"mean edge m", 20, true}, {"pieces", 16, true}, {"open rims", 18, true}, {"holes m", 18, true},
-               {"mean deviation m", 25, true}, {"spread m", 20, true}}, {}, 2.3};
-  table.rows.push_back({grouped(m.points), grouped(m.triangles), fixed(m.area_m2, 1), fixed(m.mean_edge_m, 3), grouped(m.components), grouped(m.boundary_loops), fixed(m.holes_m, 1),
+  Table table{{{"points", 20, true},
+               {"triangles", 20, true},
+               {"area m\u00b2", 20, true},
+               {"mean edge m", 20, true},
+               {"pieces", 16, true},
+               {"open rims", 18, true},
+               {"holes m", 18, true},
+               {"mean deviation m", 25, true},
+               {"spread m", 20, true}},
+              {},
+              2.3};
+  table.rows.push_back({grouped(m.points), grouped(m.triangles), fixed(m.area_m2, 1), fixed(m.mean_edge_m, 3),
+                        grouped(m.components), grouped(m.boundary_loops), fixed(m.holes_m, 1),
                         with_sign(m.mean_deviation_m, 3), fixed(m.sigma_deviation_m, 3)});
   flow.table(table);
 }
@@ -75,7 +96,8 @@ std::vector<std::string> absent_parts(const ReportContent& content) {
 
 void add_provenance_pages(PageFlow& flow, const ReportContent& content) {
   flow.start("Provenance");
-  flow.paragraph("Made by Adit " + content.results->version + ". The same files and settings give the same numbers.", colours::black, 2.6, true);
+  flow.paragraph("Made by Adit " + content.results->version + ". The same files and settings give the same numbers.",
+                 colours::black, 2.6, true);
   add_inputs(flow, content.results->import);
   add_notes(flow, *content.results);
   add_mesh(flow, *content.results);

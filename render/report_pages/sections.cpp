@@ -25,8 +25,10 @@ void add_section_pages(PageFlow& flow, const ReportContent& content, const Progr
   if (drawn.empty()) return;
   flow.start("Section drawings");
   if (drawn.size() < content.results->profile->sections.size())
-    flow.paragraph("Drawn: " + std::to_string(drawn.size()) + " of " + std::to_string(content.results->profile->sections.size()) +
-                       " sections, evenly chosen. The table holds all of them.", colours::grey, 2.4);
+    flow.paragraph("Drawn: " + std::to_string(drawn.size()) + " of " +
+                       std::to_string(content.results->profile->sections.size()) +
+                       " sections, evenly chosen. The table holds all of them.",
+                   colours::grey, 2.4);
   const double gap = 4.0;
   double row_height = 0.0;
   for (std::size_t i = 0; i < drawn.size(); i += columns) {
@@ -36,8 +38,10 @@ void add_section_pages(PageFlow& flow, const ReportContent& content, const Progr
     const double width = (row.width - gap) / static_cast<double>(columns);
     for (std::size_t k = 0; k < columns && i + k < drawn.size(); ++k) {
       const Section& section = *drawn[i + k];
-      const std::vector<SectionLine> lines = content.design != nullptr ? section_lines(*content.design, section.chainage_m) : std::vector<SectionLine>{};
-      draw_section(flow.canvas(), {row.left + static_cast<double>(k) * (width + gap), row.top, width, row_height - 3.0}, section, lines);
+      const std::vector<SectionLine> lines =
+          content.design != nullptr ? section_lines(*content.design, section.chainage_m) : std::vector<SectionLine>{};
+      draw_section(flow.canvas(), {row.left + static_cast<double>(k) * (width + gap), row.top, width, row_height - 3.0},
+                   section, lines);
     }
   }
 }

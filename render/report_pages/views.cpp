@@ -13,7 +13,8 @@ void add_view_pages(PageFlow& flow, const std::vector<ReportView>& views) {
     const Rect frame{rect.left, rect.top, rect.width, height};
     flow.canvas().picture(view.picture, frame);
     flow.canvas().frame(frame, {colours::light_grey, 0.2, {}});
-    flow.canvas().text({rect.left, frame.bottom() + 1.0}, view.words, {.size_mm = 2.4, .colour = colours::grey, .shorten_mm = rect.width});
+    flow.canvas().text({rect.left, frame.bottom() + 1.0}, view.words,
+                       {.size_mm = 2.4, .colour = colours::grey, .shorten_mm = rect.width});
   }
 }
 
