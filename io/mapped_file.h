@@ -8,7 +8,7 @@
 
 namespace adit::io {
 
-/// A read-only memory map of a regular file. Error as InputFile, and for an empty file.
+/// A read-only memory map of a regular file; no bytes for an empty one. Error as InputFile.
 class MappedFile {
  public:
   explicit MappedFile(const std::filesystem::path& path);

@@ -81,7 +81,7 @@ class HeaderParser {
       } else if (word == "property") {
         take_property();
       } else {
-        fail("unknown header word " + quoted(word), "the header is damaged; export the file again");
+        fail("unknown header word " + quoted_word(word), "the header is damaged; export the file again");
       }
     }
     if (!has_format) fail("the header has no format line", "export the file again");
@@ -106,7 +106,7 @@ class HeaderParser {
     header_.ascii = kind == "ascii";
     header_.order = kind == "binary_big_endian" ? std::endian::big : std::endian::little;
     if (!header_.ascii && kind != "binary_big_endian" && kind != "binary_little_endian")
-      fail("unknown format " + quoted(kind), "export as ascii, binary_little_endian or binary_big_endian");
+      fail("unknown format " + quoted_word(kind), "export as ascii, binary_little_endian or binary_big_endian");
   }
 
   void take_element() {
@@ -116,7 +116,7 @@ class HeaderParser {
     const std::string_view count = words_[2].text;
     const auto result = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (result.ec != std::errc{} || result.ptr != count.data() + count.size())
-      fail("a count is needed, found " + quoted(count), "export the file again");
+      fail("a count is needed, found " + quoted_word(count), "export the file again");
     header_.elements.push_back(std::move(element));
   }
 
@@ -136,7 +136,7 @@ class HeaderParser {
   PlyType type_of(std::string_view name) const {
     for (const TypeName& known : type_names)
       if (known.name == name) return known.type;
-    fail("unknown type " + quoted(name), "export with float or double coordinates");
+    fail("unknown type " + quoted_word(name), "export with float or double coordinates");
   }
 
   [[noreturn]] void fail(const std::string& what_is_wrong, const std::string& mend) const {

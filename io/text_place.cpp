@@ -76,7 +76,7 @@ void split_at(char separator, std::string_view line, int line_number, std::vecto
   fields.push_back(trimmed(line, begin, line.size(), line_number));
 }
 
-std::string quoted(std::string_view text) {
+std::string quoted_word(std::string_view text) {
   constexpr std::size_t longest = 40;
   std::string word = "\"";
   for (const char c : text.substr(0, longest)) word += (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) ? '?' : c;
@@ -176,13 +176,20 @@ std::uint64_t LineReader::count(const Field& field) const {
   const char* end = field.text.data() + field.text.size();
   const auto result = std::from_chars(field.text.data(), end, value);
   if (result.ec != std::errc{} || result.ptr != end)
-    fail(field, "a whole number is needed, found " + quoted(field.text), "write digits only");
+    fail(field, "a whole number is needed, found " + quoted_word(field.text), "write digits only");
   return value;
+}
+
+std::uint8_t LineReader::byte(const Field& field) const {
+  const double value = number(field);
+  if (value < 0.0 || value > 255.0 || value != std::floor(value))
+    fail(field, "a whole number from 0 to 255 is needed, found " + quoted_word(field.text), "write colours as bytes");
+  return static_cast<std::uint8_t>(value);
 }
 
 void LineReader::not_a_number(const Field& field) const {
   if (field.text.empty()) fail(field, "a number is needed, found nothing", "fill the field in");
-  const std::string what = "a number is needed, found " + quoted(field.text);
+  const std::string what = "a number is needed, found " + quoted_word(field.text);
   if (is_comma_decimal(field.text)) fail(field, what, "write a decimal point, not a comma");
   fail(field, what, "write digits with a decimal point");
 }

@@ -33,7 +33,7 @@ void split_at_blanks(std::string_view line, int line_number, std::vector<Field>&
 void split_at(char separator, std::string_view line, int line_number, std::vector<Field>& fields);
 
 /// The word in double quotes, cut to a readable length, other than printing bytes shown as "?".
-std::string quoted(std::string_view text);
+std::string quoted_word(std::string_view text);
 
 /// Reads a text file line by line: LF or CRLF, with or without a byte order mark, UTF-8 or Latin-1. Memory does not
 /// grow with the file; a line of more than 1 MiB, a byte of zero or UTF-16 is an Error (it is no text).
@@ -66,6 +66,8 @@ class LineReader {
   double number_or_nan(const Field& field) const;
   /// The whole number from 0 a field holds. Error otherwise.
   std::uint64_t count(const Field& field) const;
+  /// The whole number 0 .. 255 a field holds (a colour). Error otherwise.
+  std::uint8_t byte(const Field& field) const;
 
   /// "control.csv:7:12" and "control.csv:7".
   std::string place(const Field& field) const;
