@@ -1,7 +1,8 @@
 # One way to declare a target of ours: C++20, warnings (as errors), sanitizers.
 function(adit_target name)
   target_compile_features(${name} PUBLIC cxx_std_20)
-  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast)
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
+    -Wno-maybe-uninitialized -Wno-array-bounds)  # GCC 12 sees these in Eigen's fixed-size vectors where there are none
   if(ADIT_WARNINGS_AS_ERRORS)
     target_compile_options(${name} PRIVATE -Werror)
   endif()

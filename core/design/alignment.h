@@ -31,12 +31,14 @@ class Alignment {
   const HorizontalAlignment& horizontal() const { return horizontal_; }
   const VerticalAlignment& vertical() const { return vertical_; }
 
-  /// The chainages where both plan and grade are known.
+  /// The chainages where both plan and grade are known; those of the plan when there is no grade line.
   double from_m() const;
   double to_m() const;
 
+  /// Throws Error outside [from, to] (1 mm tolerance) and when there is no grade line.
   Eigen::Vector3d to_site(const TunnelPoint& point) const;
-  /// Empty where the point has no foot on the axis.
+  /// Empty where the point has no foot on the axis within [from, to] (1 mm tolerance). The hint is that of
+  /// HorizontalAlignment::foot. Throws Error when there is no grade line.
   std::optional<TunnelPoint> to_tunnel(const Eigen::Vector3d& point, std::optional<double> hint_m = std::nullopt) const;
 
   /// The same axis with `origin` (east, north, elevation) subtracted.

@@ -25,12 +25,13 @@ struct ProfileFrom {
 class DesignTunnel {
  public:
   DesignTunnel() = default;
-  /// Throws Error when there is no profile, no line, or profiles are not in order of chainage.
+  /// Throws Error when there is no profile, no line, two lines of one name, or profiles are not in order of chainage.
   DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profiles, std::vector<DesignLine> lines);
 
   const Alignment& alignment() const { return alignment_; }
   const std::vector<ProfileFrom>& profiles() const { return profiles_; }
   const std::vector<DesignLine>& lines() const { return lines_; }
+  /// The profile that holds at a chainage; the first one also holds before its own.
   const Profile& profile_at(double chainage_m) const;
 
   DesignTunnel relative_to(const Eigen::Vector3d& origin) const;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/design/plan_knot.h"
+
 namespace adit {
 
 enum class HorizontalKind { line, arc, clothoid };
@@ -15,9 +17,9 @@ enum class HorizontalKind { line, arc, clothoid };
 /// zero for a line, equal for an arc). Azimuth clockwise from north.
 struct HorizontalElement {
   HorizontalKind kind = HorizontalKind::line;
-  std::string name;                                    ///< for messages: "Spiral 3", "Curve K12"
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();     ///< east, north [m]
-  double azimuth_rad = 0.0;                            ///< direction at start
+  std::string name;                                 ///< for messages: "Spiral 3", "Curve K12"
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< east, north [m]
+  double azimuth_rad = 0.0;                         ///< direction at start
   double length_m = 0.0;
   double start_curvature_per_m = 0.0;
   double end_curvature_per_m = 0.0;
@@ -29,8 +31,8 @@ struct PlanPoint {
   double azimuth_rad = 0.0;                            ///< clockwise from north
   double curvature_per_m = 0.0;                        ///< right-hand turns positive
 
-  Eigen::Vector2d tangent() const;                     ///< unit (east, north) up-chainage
-  Eigen::Vector2d right() const;                       ///< unit, a quarter turn clockwise from the tangent
+  Eigen::Vector2d tangent() const;  ///< unit (east, north) up-chainage
+  Eigen::Vector2d right() const;    ///< unit, a quarter turn clockwise from the tangent
 };
 
 /// Foot of a point on the axis.
@@ -39,8 +41,9 @@ struct PlanFoot {
   double offset_m = 0.0;  ///< right positive
 };
 
-/// Position and direction at the end of an element, from its own start: Gauss-Legendre integration of the linear
-/// curvature, exact to 1e-11 m on elements of up to several kilometres.
+/// Position and direction along an element, from its own start: lines and arcs in closed form, clothoids by
+/// Gauss-Legendre integration, exact to 1e-11 m on elements of up to several kilometres (beside the rounding of large
+/// coordinates).
 PlanPoint element_point(const HorizontalElement& element, double along_m);
 
 /// The plan axis. Elements follow each other; every element keeps its own start, so that small gaps of the file (under
@@ -48,17 +51,25 @@ PlanPoint element_point(const HorizontalElement& element, double along_m);
 class HorizontalAlignment {
  public:
   HorizontalAlignment() = default;
+  /// Throws Error, naming the element, when there is none, a length is not positive or a number is not finite.
   HorizontalAlignment(std::vector<HorizontalElement> elements, double start_chainage_m);
 
   const std::vector<HorizontalElement>& elements() const { return elements_; }
+  /// Chainage at which element i begins.
+  double element_from_m(std::size_t i) const { return knots_[first_knot_of_element_[i]].chainage_m; }
   double from_m() const { return start_chainage_m_; }
   double to_m() const { return end_chainage_m_; }
 
-  /// Throws Error outside [from, to] (1 mm tolerance).
+  /// Throws Error outside [from, to] (1 mm tolerance). At a joint the later element answers.
   PlanPoint at(double chainage_m) const;
 
+  /// East and north of a place beside the axis; the way back of foot(). Throws Error outside [from, to] (1 mm
+  /// tolerance). Faster than at(): no trigonometry.
+  Eigen::Vector2d to_plan(const PlanFoot& foot) const;
+
   /// Nearest foot of a point: (P - C(s)) . T(s) = 0 solved to 1e-9 m. Empty when the point lies before the start or
-  /// behind the end of the axis, or further from it than the radius of curvature. With a hint (a chainage within some
+  /// behind the end of the axis (by more than 1 mm), or further from it than the radius of curvature. Where elements
+  /// meet with a small gap or kink, the wedge without a foot belongs to the joint. With a hint (a chainage within some
   /// metres of the answer) the search starts there and stays within 30 m of it: about 0.1 microseconds.
   std::optional<PlanFoot> foot(const Eigen::Vector2d& point, std::optional<double> hint_m = std::nullopt) const;
 
@@ -66,16 +77,32 @@ class HorizontalAlignment {
   HorizontalAlignment relative_to(const Eigen::Vector2d& origin) const;
 
  private:
-  struct Knot {  ///< every metre and at every element start: local series about it are exact to rounding
-    double chainage_m;
-    std::size_t element;
-    PlanPoint point;
-    double curvature_rate_per_m2;
-    double end_chainage_m;  ///< the knot's stretch ends here
+  struct Disc {  ///< holds all the axis from knot (or disc) `first` up to `last`, exclusive
+    Eigen::Vector2d centre;
+    double radius_m;
+    std::size_t first;
+    std::size_t last;
   };
+  struct Settled;  // what Newton's iteration came to
+
+  void lay_knots();
+  void lay_discs();
+  std::size_t knot_at(double chainage_m) const;
+  double checked(double chainage_m) const;
+  std::vector<std::size_t> nearest_knots(const Eigen::Vector2d& point) const;
+  std::size_t nearest_leaf(const Eigen::Vector2d& point) const;
+  std::optional<PlanFoot> foot_near(const Eigen::Vector2d& point, double hint_m) const;
+  Settled settle(const Eigen::Vector2d& point, double chainage_m) const;
+  Settled settle_at_end(const Eigen::Vector2d& point, bool at_start) const;
+  Settled settle_in(const Eigen::Vector2d& point, std::size_t knot) const;
+  std::optional<PlanFoot> joint_foot(const Eigen::Vector2d& point, std::size_t later_element) const;
+
   std::vector<HorizontalElement> elements_;
-  std::vector<double> element_start_m_;
-  std::vector<Knot> knots_;
+  std::vector<PlanKnot> knots_;
+  std::vector<std::size_t> first_knot_of_element_;
+  std::vector<std::size_t> knot_of_metre_;  ///< knot that holds start_chainage + i metres
+  std::vector<Disc> leaves_;                ///< over knots
+  std::vector<Disc> branches_;              ///< over leaves
   double start_chainage_m_ = 0.0;
   double end_chainage_m_ = 0.0;
 };

@@ -23,12 +23,15 @@ struct VerticalPosition {
   double grade = 0.0;  ///< rise over plan length, up-chainage positive
 };
 
-/// The grade line. Throws Error when points do not advance or curves overlap (by more than 1 mm), naming the chainage.
+/// The grade line; empty when made without points.
 class VerticalAlignment {
  public:
   VerticalAlignment() = default;
+  /// Throws Error, naming the chainage, when there are fewer than two points, points do not advance, the first or last
+  /// one carries a curve, curves overlap each other or the ends by more than 1 mm, or a number is not finite.
   explicit VerticalAlignment(std::vector<VerticalPoint> points);
 
+  bool empty() const { return points_.empty(); }
   const std::vector<VerticalPoint>& points() const { return points_; }
   double from_m() const { return points_.front().chainage_m; }
   double to_m() const { return points_.back().chainage_m; }
@@ -41,13 +44,24 @@ class VerticalAlignment {
     double from_m;
     double to_m;
   };
-  CurveExtent curve_extent(std::size_t i) const;
+  CurveExtent curve_extent(std::size_t i) const { return extents_[i]; }
 
   VerticalAlignment relative_to(double origin_elevation_m) const;
 
  private:
+  struct Piece {  ///< a grade or a curve, from its start up to the start of the next piece
+    double from_m;
+    double elevation_m;
+    double grade;
+    double grade_rate_per_m;  ///< parabola
+    double sine;              ///< circle: sine of the slope at the start
+    double sine_rate_per_m;   ///< circle: +-1 / radius, zero for none
+  };
+  void lay_pieces();
+
   std::vector<VerticalPoint> points_;
   std::vector<CurveExtent> extents_;
+  std::vector<Piece> pieces_;
 };
 
 }  // namespace adit

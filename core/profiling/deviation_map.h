@@ -17,13 +17,17 @@ class ProfileStretch {
  public:
   ProfileStretch() = default;
   /// wedge_m: stretch given to each radian of a convex corner.
-  explicit ProfileStretch(const Profile& profile, double wedge_m = 0.5);
+  explicit ProfileStretch(const Profile& profile, double wedge_m = 0.15);
 
   double length_m() const { return length_m_; }
   /// q in [0, length): 0 is the left end of the line (p = -length/2), the crown lies in the middle.
   double q_of(const ProfileFoot& foot) const;
   /// The ray at q: foot on the line, outward direction, and p.
   ProfilePoint at(double q_m) const;
+  /// Length of the line itself (wedges not counted) between two q, first <= last.
+  double line_length_m(double first_q_m, double last_q_m) const;
+  /// Columns of the given width that cover the line.
+  std::size_t columns(double step_q_m) const;
 
  private:
   struct Wedge {
@@ -33,8 +37,7 @@ class ProfileStretch {
   };
   Profile profile_;
   std::vector<Wedge> wedges_;        ///< in order of q
-  std::vector<int> wedge_of_corner_; ///< index into wedges_ or -1
-  double wedge_m_ = 0.5;
+  std::vector<int> wedge_of_corner_;  ///< index into wedges_ or -1
   double length_m_ = 0.0;
 };
 

@@ -23,6 +23,7 @@ struct ProfilingOptions {
   int least_points = 3;            ///< a cell with fewer points is not measured
   double least_range_m = 0.6;      ///< nearer points are the scanner itself
   double most_range_m = 45.0;      ///< farther points are too oblique to be used
+  double range_bias_sigma_m = 0.001;  ///< systematic error of the scanner's distances, for the uncertainty of volumes
 };
 
 template <typename Visitor>
@@ -36,6 +37,8 @@ void describe(Visitor& v, ProfilingOptions& o) {
   v.count("least_points", o.least_points, "", 1, 100, "a cell with fewer points is not measured");
   v.number("least_range_m", o.least_range_m, "m", 0.0, 10.0, "nearer points are the scanner itself");
   v.number("most_range_m", o.most_range_m, "m", 1.0, 1000.0, "farther points are too oblique to be used");
+  v.number("range_bias_sigma_m", o.range_bias_sigma_m, "m", 0.0, 0.1,
+           "systematic error of the scanner's distances, for the uncertainty of volumes");
 }
 
 /// A scan with its place: local frame = site minus project origin.
@@ -63,9 +66,10 @@ Section cut_section(const DeviationMap& map, const DesignTunnel& design, double 
 /// Chainages from, from + interval, ... up to and including to.
 std::vector<double> section_chainages(double from_m, double to_m, double interval_m);
 
-/// Volumes of a stretch against one line.
+/// Volumes of a stretch against one line: thin slices, each dV = ds * (A - k M) with plan curvature k (right positive),
+/// area A and first moment M about the axis. Average end area and prismoidal from sections every interval_m beside it.
 Volume compute_volume(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line, double from_m,
-                      double to_m, const std::vector<Section>& sections, const std::vector<PlacedScan>& poses,
+                      double to_m, double interval_m, const std::vector<PlacedScan>& poses,
                       const ProfilingOptions& options, Progress& progress);
 
 }  // namespace adit

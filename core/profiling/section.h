@@ -16,6 +16,7 @@ struct OutlinePoint {
   double p_m = 0.0;
   double deviation_m = 0.0;                            ///< from the profile (offset 0)
   CellKind kind = CellKind::measured;
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitY();   ///< of the profile there, outward
 };
 
 /// What an outline says about one design line. Numbers never stand without their line and coverage.

@@ -1,0 +1,57 @@
+#include "core/design/design_tunnel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/foundation/error.h"
+#include "core/foundation/options.h"
+
+namespace adit {
+namespace {
+
+void check_profiles(const std::vector<ProfileFrom>& profiles) {
+  if (profiles.empty()) throw Error("the design has no profile");
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    if (profiles[i].profile.segments().empty()) throw Error("the design holds a profile without a line");
+    if (!std::isfinite(profiles[i].from_m)) throw Error("a profile holds from a chainage that is not finite");
+    if (i > 0 && profiles[i].from_m <= profiles[i - 1].from_m) {
+      throw Error("profile " + profiles[i].profile.name() + " holds from chainage " + short_number(profiles[i].from_m) +
+                      ", which is not behind the one before it (" + short_number(profiles[i - 1].from_m) + ")",
+                  {}, "list the profiles in order of chainage");
+    }
+  }
+}
+
+void check_lines(const std::vector<DesignLine>& lines) {
+  if (lines.empty()) throw Error("the design has no line");
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!std::isfinite(lines[i].offset_m)) throw Error("line " + lines[i].name + " has an offset that is not finite");
+    for (std::size_t j = 0; j < i; ++j) {
+      if (lines[j].name == lines[i].name) throw Error("two lines of the design are named " + lines[i].name);
+    }
+  }
+}
+
+}  // namespace
+
+DesignTunnel::DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profiles, std::vector<DesignLine> lines)
+    : alignment_(std::move(alignment)), profiles_(std::move(profiles)), lines_(std::move(lines)) {
+  check_profiles(profiles_);
+  check_lines(lines_);
+}
+
+const Profile& DesignTunnel::profile_at(double chainage_m) const {
+  if (profiles_.empty()) throw Error("the design has no profile");
+  const auto behind = std::upper_bound(profiles_.begin() + 1, profiles_.end(), chainage_m,
+                                       [](double s, const ProfileFrom& profile) { return s < profile.from_m; });
+  return std::prev(behind)->profile;
+}
+
+DesignTunnel DesignTunnel::relative_to(const Eigen::Vector3d& origin) const {
+  DesignTunnel moved = *this;
+  moved.alignment_ = alignment_.relative_to(origin);
+  return moved;
+}
+
+}  // namespace adit

@@ -1,0 +1,206 @@
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "core/foundation/error.h"
+#include "core/foundation/parallel.h"
+#include "core/geometry/statistics.h"
+#include "core/profiling/object_cells.h"
+#include "core/profiling/profiling.h"
+
+namespace adit {
+namespace {
+
+constexpr double slab_m = 4.0;  // memory holds the points of one slab
+
+struct TileRef {
+  std::size_t scan = 0;
+  std::size_t tile = 0;
+  double from_m = 0.0;
+  double to_m = 0.0;
+};
+
+/// Chainage interval that a tile may reach, or nothing when it lies beside the axis altogether.
+std::optional<TileRef> tile_reach(const PlacedTiles& scan, std::size_t index, std::size_t tile, const Alignment& axis) {
+  const BoundingBox box = moved(scan.points->box(tile), scan.local_from_scan);
+  if (box.isEmpty()) return std::nullopt;
+  const double radius = 0.55 * box.diagonal().norm() + 0.1;
+  TileRef ref{index, tile, 1e300, -1e300};
+  for (int corner = -1; corner < 8; ++corner) {
+    const Eigen::Vector3d at =
+        corner < 0 ? Eigen::Vector3d(box.center()) : Eigen::Vector3d(box.corner(static_cast<BoundingBox::CornerType>(corner)));
+    if (const auto point = axis.to_tunnel(at)) {
+      ref.from_m = std::min(ref.from_m, point->s_m - radius);
+      ref.to_m = std::max(ref.to_m, point->s_m + radius);
+    }
+  }
+  if (ref.from_m > ref.to_m) return std::nullopt;
+  return ref;
+}
+
+struct Entry {
+  std::uint32_t cell;
+  float deviation_m;
+};
+
+struct TileEntries {
+  std::vector<Entry> entries;
+  std::uint64_t inside = 0;
+  std::uint64_t outside = 0;
+};
+
+struct Mapper {
+  const std::vector<PlacedTiles>& scans;
+  const DesignTunnel& design;
+  const ProfilingOptions& options;
+  const DeviationMap& map;
+  std::vector<ProfileStretch> stretches;  ///< one for each of the design's profiles
+
+  const ProfileStretch& stretch_at(double chainage_m) const {
+    const Profile* profile = &design.profile_at(chainage_m);
+    for (std::size_t i = 0; i < design.profiles().size(); ++i)
+      if (profile == &design.profiles()[i].profile) return stretches[i];
+    return stretches.front();
+  }
+
+  TileEntries entries_of(const TileRef& ref, std::size_t first_row, std::size_t last_row) const {
+    TileEntries result;
+    const PlacedTiles& scan = scans[ref.scan];
+    const double from = map.from_m + static_cast<double>(first_row) * map.step_s_m;
+    const double to = map.from_m + static_cast<double>(last_row) * map.step_s_m;
+    std::optional<double> hint;
+    for (const auto& point : scan.points->read(ref.tile).points) {
+      const double range = static_cast<double>(point.norm());
+      if (range < options.least_range_m || range > options.most_range_m) continue;
+      const auto at = design.alignment().to_tunnel(scan.local_from_scan * point.cast<double>(), hint);
+      if (!at) continue;
+      hint = at->s_m;
+      if (at->s_m < from || at->s_m >= to) continue;
+      const ProfileFoot foot = design.profile_at(at->s_m).nearest({at->x_m, at->z_m});
+      if (foot.deviation_m < -options.reach_in_m) {
+        ++result.inside;
+      } else if (foot.deviation_m > options.reach_out_m) {
+        ++result.outside;
+      } else {
+        const auto row = std::min(static_cast<std::size_t>((at->s_m - map.from_m) / map.step_s_m), last_row - 1);
+        const auto column = static_cast<std::size_t>(stretch_at(at->s_m).q_of(foot) / map.step_q_m);
+        const std::size_t cell = (row - first_row) * map.columns + std::min(column, map.columns - 1);
+        result.entries.push_back({static_cast<std::uint32_t>(cell), static_cast<float>(foot.deviation_m)});
+      }
+    }
+    return result;
+  }
+};
+
+/// The outermost surface among the sorted deviations of a cell: the outermost band that holds enough of its points.
+MapCell surface_cell(const Entry* begin, const Entry* end, const ProfilingOptions& options) {
+  MapCell cell;
+  const auto count = static_cast<std::size_t>(end - begin);
+  const auto least = static_cast<std::size_t>(options.least_points);
+  if (count < least) return cell;
+  const std::size_t need = std::max(least, count / 10);
+  const auto band = static_cast<float>(options.surface_band_m);
+  for (const Entry* top = end - 1; top >= begin; --top) {
+    const Entry* first = std::lower_bound(begin, top + 1, top->deviation_m - band,
+                                          [](const Entry& e, float d) { return e.deviation_m < d; });
+    if (static_cast<std::size_t>(top + 1 - first) < need) continue;
+    std::vector<double> values;
+    for (const Entry* e = first; e <= top; ++e) values.push_back(static_cast<double>(e->deviation_m));
+    cell.deviation_m = static_cast<float>(median(values));
+    cell.spread_m = static_cast<float>(robust_sigma(values));
+    cell.count = static_cast<std::uint32_t>(values.size());
+    cell.kind = CellKind::measured;
+    return cell;
+  }
+  return cell;
+}
+
+void fill_slab(DeviationMap& map, std::vector<Entry>& entries, std::size_t first_row, const ProfilingOptions& options) {
+  tbb::parallel_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return a.cell != b.cell ? a.cell < b.cell : a.deviation_m < b.deviation_m;
+  });
+  for (std::size_t begin = 0; begin < entries.size();) {
+    std::size_t end = begin;
+    while (end < entries.size() && entries[end].cell == entries[begin].cell) ++end;
+    map.cells[first_row * map.columns + entries[begin].cell] =
+        surface_cell(entries.data() + begin, entries.data() + end, options);
+    begin = end;
+  }
+}
+
+DeviationMap empty_map(const std::vector<ProfileStretch>& stretches, double from_m, double to_m,
+                       const ProfilingOptions& options) {
+  DeviationMap map;
+  map.from_m = from_m;
+  map.to_m = to_m;
+  map.rows = static_cast<std::size_t>(std::max(1.0, std::round((to_m - from_m) / options.slice_m)));
+  map.step_s_m = (to_m - from_m) / static_cast<double>(map.rows);
+  map.step_q_m = options.cell_m;
+  for (const auto& stretch : stretches) map.columns = std::max(map.columns, stretch.columns(map.step_q_m));
+  if (map.rows * map.columns > 200'000'000)
+    throw Error("the deviation map would have over 200 million cells", "profiling.slice_m", "use larger slices or cells");
+  map.cells.resize(map.rows * map.columns);
+  return map;
+}
+
+}  // namespace
+
+MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunnel& design, double from_m, double to_m,
+                         const ProfilingOptions& options, Progress& progress) {
+  std::vector<ProfileStretch> stretches;
+  for (const auto& stepped : design.profiles()) stretches.emplace_back(stepped.profile);
+  MapResult result;
+  result.map = empty_map(stretches, from_m, to_m, options);
+  const Mapper mapper{scans, design, options, result.map, stretches};
+
+  std::vector<TileRef> tiles;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    for (std::size_t t = 0; t < scans[i].points->tile_count(); ++t)
+      if (const auto ref = tile_reach(scans[i], i, t, design.alignment())) tiles.push_back(*ref);
+
+  const auto slab_rows = static_cast<std::size_t>(std::max(1.0, std::ceil(slab_m / result.map.step_s_m)));
+  for (std::size_t first = 0; first < result.map.rows; first += slab_rows) {
+    progress.step(first, result.map.rows);
+    const std::size_t last = std::min(first + slab_rows, result.map.rows);
+    std::vector<TileRef> here;
+    for (const TileRef& tile : tiles)
+      if (tile.to_m >= result.map.row_chainage(first) - result.map.step_s_m &&
+          tile.from_m <= result.map.row_chainage(last - 1) + result.map.step_s_m)
+        here.push_back(tile);
+    std::vector<TileEntries> parts(here.size());
+    parallel_for_each_index(
+        here.size(),
+        [&](std::size_t k) {
+          progress.check();
+          parts[k] = mapper.entries_of(here[k], first, last);
+        },
+        1);
+    std::vector<Entry> entries;
+    for (const TileEntries& part : parts) {
+      entries.insert(entries.end(), part.entries.begin(), part.entries.end());
+      result.points_inside += part.inside;
+      result.points_outside += part.outside;
+    }
+    result.points_used += entries.size();
+    fill_slab(result.map, entries, first, options);
+  }
+  if (result.points_used == 0)
+    throw Error("no scan point lies near the design between chainage " + std::to_string(from_m) + " and " +
+                    std::to_string(to_m),
+                "", "check the alignment, the profile and the poses: do they use the same coordinates?");
+  const ObjectCells objects = remove_object_cells(result.map);
+  if (objects.cells > 0) {
+    char words[200];
+    std::snprintf(words, sizeof words,
+                  "%.1f m2 between chainage %.1f and %.1f stand out from the rock around and were taken as equipment, not as "
+                  "underbreak",
+                  static_cast<double>(objects.cells) * result.map.step_s_m * result.map.step_q_m, objects.from_m, objects.to_m);
+    result.findings.push_back({Severity::warning, "deviation map", words, "look at the sections there"});
+  }
+  return result;
+}
+
+}  // namespace adit

@@ -1,0 +1,28 @@
+#pragma once
+// One row of the deviation map as an outline in the section plane.
+
+#include <vector>
+
+#include "core/geometry/polygon.h"
+#include "core/profiling/deviation_map.h"
+#include "core/profiling/section.h"
+
+namespace adit {
+
+/// The outline of a row and how much of the line it rests on.
+struct Outline {
+  std::vector<OutlinePoint> points;  ///< closed, clockwise looking up-chainage, about every 2 cm of the line
+  std::vector<MapCell> cells;        ///< the row with its gaps filled: kind says how
+  double measured_m = 0.0;           ///< length of the line that was measured ...
+  double interpolated_m = 0.0;       ///< ... interpolated over gaps up to gap_m ...
+  double unseen_m = 0.0;             ///< ... and not seen; there the outline follows the line
+};
+
+/// Between measured cells deviations are interpolated along the line; a gap of more than one cell and up to gap_m is
+/// closed by a straight chord between its measured ends and marked interpolated; longer gaps stay unseen.
+Outline outline_of(const std::vector<MapCell>& row, const ProfileStretch& stretch, double step_q_m, double gap_m);
+
+/// The outline as a polygon for a line at an offset: where nothing was seen it runs on that line.
+Polygon polygon_of(const std::vector<OutlinePoint>& points, double line_offset_m);
+
+}  // namespace adit

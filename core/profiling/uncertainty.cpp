@@ -1,0 +1,108 @@
+#include "core/profiling/uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/profiling/outline.h"
+
+namespace adit {
+namespace {
+
+constexpr double correlated_area_m2 = 0.5;
+
+struct Sums {
+  double area_m2 = 0.0;
+  double across_m2 = 0.0;        ///< sum of a n_x
+  double up_m2 = 0.0;            ///< sum of a n_z
+  double noise_m6 = 0.0;
+  double interpolated_m2 = 0.0;
+  double unseen_m2 = 0.0;
+  double deviation_sum = 0.0;
+  double deviation_square = 0.0;
+  double measured_m2 = 0.0;
+};
+
+bool belongs(VolumePart part, double over_m) {
+  return part == VolumePart::excavated || (part == VolumePart::over ? over_m > 0.0 : over_m < 0.0);
+}
+
+void add_cell(Sums& sums, const MapCell& cell, const ProfilePoint& at, double area_m2, double offset_m, VolumePart part) {
+  if (cell.kind == CellKind::unseen) {
+    sums.unseen_m2 += area_m2;
+    return;
+  }
+  const double over = static_cast<double>(cell.deviation_m) - offset_m;
+  if (cell.kind == CellKind::measured) {
+    sums.measured_m2 += area_m2;
+    const double counted = belongs(part, over) ? (part == VolumePart::under ? -over : over) : 0.0;
+    sums.deviation_sum += area_m2 * counted;
+    sums.deviation_square += area_m2 * counted * counted;
+  }
+  if (!belongs(part, over)) return;
+  sums.area_m2 += area_m2;
+  sums.across_m2 += area_m2 * at.normal.x();
+  sums.up_m2 += area_m2 * at.normal.y();
+  if (cell.kind == CellKind::interpolated)
+    sums.interpolated_m2 += area_m2;
+  else
+    sums.noise_m6 += std::pow(area_m2 * static_cast<double>(cell.spread_m), 2) / std::max(1U, cell.count);
+}
+
+PoseSigma common_sigma(const std::vector<PlacedScan>& poses) {
+  PoseSigma worst;
+  for (const PlacedScan& scan : poses) {
+    if (!scan.placed) continue;
+    worst.along_m = std::max(worst.along_m, scan.sigma.along_m);
+    worst.across_m = std::max(worst.across_m, scan.sigma.across_m);
+    worst.up_m = std::max(worst.up_m, scan.sigma.up_m);
+  }
+  return worst;
+}
+
+/// Area by which the volume grows when the window moves along: difference of the ends' counted areas.
+double end_difference_m2(const std::vector<double>& row_amount_m2) {
+  if (row_amount_m2.empty()) return 0.0;
+  return row_amount_m2.back() - row_amount_m2.front();
+}
+
+}  // namespace
+
+double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line, double from_m,
+                       double to_m, VolumePart part, const std::vector<PlacedScan>& poses,
+                       const ProfilingOptions& options) {
+  Sums sums;
+  std::vector<double> row_amount_m2;
+  for (std::size_t r = 0; r < map.rows; ++r) {
+    const double chainage = map.row_chainage(r);
+    if (chainage < from_m || chainage > to_m) continue;
+    const ProfileStretch stretch(design.profile_at(chainage));
+    const std::vector<MapCell> row(map.cells.begin() + static_cast<std::ptrdiff_t>(r * map.columns),
+                                   map.cells.begin() + static_cast<std::ptrdiff_t>((r + 1) * map.columns));
+    const Outline outline = outline_of(row, stretch, map.step_q_m, options.gap_m);
+    double amount = 0.0;
+    for (std::size_t c = 0; c < outline.cells.size(); ++c) {
+      const double q0 = static_cast<double>(c) * map.step_q_m;
+      const double q1 = std::min(q0 + map.step_q_m, stretch.length_m());
+      const double length = stretch.line_length_m(q0, q1);
+      const MapCell& cell = outline.cells[c];
+      add_cell(sums, cell, stretch.at(0.5 * (q0 + q1)), length * map.step_s_m, line.offset_m, part);
+      if (cell.kind == CellKind::unseen) continue;
+      const double over = static_cast<double>(cell.deviation_m) - line.offset_m;
+      if (belongs(part, over)) amount += length * std::abs(over);
+    }
+    row_amount_m2.push_back(amount);
+  }
+  const PoseSigma sigma = common_sigma(poses);
+  const double mean = sums.measured_m2 > 0.0 ? sums.deviation_sum / sums.measured_m2 : 0.0;
+  const double variance = sums.measured_m2 > 0.0 ? sums.deviation_square / sums.measured_m2 - mean * mean : 0.0;
+  const double rock_variance = std::max(variance, 0.0);
+  const double unseen = sums.unseen_m2 * std::hypot(mean, std::sqrt(rock_variance * correlated_area_m2 /
+                                                                    std::max(sums.unseen_m2, correlated_area_m2)));
+  const double total = std::pow(sums.across_m2 * sigma.across_m, 2) + std::pow(sums.up_m2 * sigma.up_m, 2) +
+                       std::pow(end_difference_m2(row_amount_m2) * sigma.along_m, 2) +
+                       std::pow(sums.area_m2 * options.range_bias_sigma_m, 2) + sums.noise_m6 +
+                       sums.interpolated_m2 * correlated_area_m2 * 0.25 * rock_variance + unseen * unseen;
+  return std::sqrt(total);
+}
+
+}  // namespace adit

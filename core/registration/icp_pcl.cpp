@@ -1,0 +1,56 @@
+#include <pcl/point_types.h>
+#include <pcl/registration/icp.h>
+
+#include "core/registration/icp.h"
+
+namespace adit {
+namespace {
+
+using Cloud = pcl::PointCloud<pcl::PointNormal>;
+
+/// Points that lie on a surface, with their normals.
+Cloud::Ptr surface_points(const PreparedScan& scan) {
+  auto cloud = std::make_shared<Cloud>();
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    if (!scan.normals[i].planar) continue;
+    pcl::PointNormal p;
+    p.getVector3fMap() = scan.points[i];
+    p.getNormalVector3fMap() = scan.normals[i].direction;
+    cloud->push_back(p);
+  }
+  return cloud;
+}
+
+}  // namespace
+
+Pose icp_align(const PreparedScan& target, const PreparedScan& source, const Pose& guess, const IcpOptions& options,
+               Progress& progress) {
+  constexpr int iterations_a_turn = 4;  // a cancel is heard between turns
+  pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
+  const Cloud::Ptr from = surface_points(source);
+  const Cloud::Ptr onto = surface_points(target);
+  if (from->size() < 100 || onto->size() < 100) return guess;
+  icp.setInputSource(from);
+  icp.setInputTarget(onto);
+  icp.setMaxCorrespondenceDistance(options.match_distance_m);
+  icp.setMaximumIterations(iterations_a_turn);
+  icp.setTransformationEpsilon(1e-10);
+
+  Pose pose = guess;
+  Cloud moved;
+  for (int done = 0; done < options.most_iterations; done += iterations_a_turn) {
+    progress.step(static_cast<std::size_t>(done), static_cast<std::size_t>(options.most_iterations));
+    icp.align(moved, pose.matrix().cast<float>());
+    const Eigen::Matrix4d matrix = icp.getFinalTransformation().cast<double>();
+    if (!matrix.allFinite()) return pose;
+    Pose next = Pose::Identity();
+    next.linear() = Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>())).normalized().toRotationMatrix();
+    next.translation() = matrix.topRightCorner<3, 1>();
+    const bool still = distance_between_m(pose, next) < 2e-4 && rotation_between_rad(pose, next) < 2e-5;
+    pose = next;
+    if (still) break;
+  }
+  return pose;
+}
+
+}  // namespace adit

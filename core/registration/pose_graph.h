@@ -1,0 +1,48 @@
+#pragma once
+// All pairs, guesses and control points in one adjustment.
+
+#include <optional>
+#include <vector>
+
+#include "core/foundation/progress.h"
+#include "core/geometry/pose.h"
+
+namespace adit {
+
+/// A measured transform between two nodes with its information about (rotation [rad], translation [m]) in the target's
+/// frame at the source's origin.
+struct GraphPair {
+  std::size_t source = 0;
+  std::size_t target = 0;
+  Pose target_from_source = Pose::Identity();
+  Matrix6d information = Matrix6d::Zero();
+};
+
+/// A target seen from a node, and where it is.
+struct GraphControl {
+  std::size_t node = 0;
+  Eigen::Vector3d in_scan = Eigen::Vector3d::Zero();
+  Eigen::Vector3d in_local = Eigen::Vector3d::Zero();
+};
+
+struct PoseGraph {
+  std::vector<Pose> local_from_scan;        ///< starting values
+  std::vector<GraphPair> pairs;
+  std::vector<GraphControl> control;
+  std::optional<std::size_t> datum;         ///< this node does not move; needed when there is no control
+  double guess_sigma_m = 0.5;               ///< every node is also held, loosely, at its starting value
+  double guess_sigma_rad = 0.035;
+  double control_sigma_m = 0.002;
+};
+
+struct PoseGraphResult {
+  std::vector<Pose> local_from_scan;
+  std::vector<Matrix6d> covariance;         ///< of (rotation, translation) per node, local axes
+  std::vector<double> pair_misfit;          ///< squared residual of each pair in its own sigmas (6 are expected)
+  std::vector<Eigen::Vector3d> control_residual_m;
+};
+
+/// Least squares with Cauchy's loss on the pairs, so that a wrong pair does not pull the rest (Ceres). Deterministic.
+PoseGraphResult solve_pose_graph(const PoseGraph& graph, Progress& progress);
+
+}  // namespace adit

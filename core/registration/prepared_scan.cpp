@@ -1,0 +1,24 @@
+#include "core/registration/prepared_scan.h"
+
+#include "core/foundation/error.h"
+#include "core/geometry/voxel_grid.h"
+
+namespace adit {
+
+PreparedScan prepare_scan(const std::string& name, const TileSource& source, double spacing_m, double least_range_m,
+                          double most_range_m, Progress& progress) {
+  PreparedScan scan;
+  scan.name = name;
+  Progress thinning = progress.part(0.5, "");
+  scan.points = even_subsample(source, spacing_m, least_range_m, most_range_m, thinning).points;
+  if (scan.points.size() < 500)
+    throw Error("only " + std::to_string(scan.points.size()) + " places remain of this scan at a spacing of " +
+                    std::to_string(spacing_m) + " m",
+                "scan " + name, "check the units of the file (metres are needed) or lower registration.spacing_m");
+  scan.tree = std::make_shared<const NearestNeighbours>(scan.points);
+  Progress planes = progress.part(0.5, "");
+  scan.normals = surface_normals(scan.points, *scan.tree, Eigen::Vector3f::Zero(), planes);
+  return scan;
+}
+
+}  // namespace adit

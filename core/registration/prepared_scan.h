@@ -1,0 +1,28 @@
+#pragma once
+// A scan made ready for matching: even subsample, search tree, normals.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/foundation/progress.h"
+#include "core/geometry/nearest_neighbours.h"
+#include "core/geometry/normals.h"
+#include "core/geometry/tile_source.h"
+
+namespace adit {
+
+/// Scan frame throughout.
+struct PreparedScan {
+  std::string name;
+  std::vector<Eigen::Vector3f> points;
+  std::vector<SurfaceNormal> normals;
+  std::shared_ptr<const NearestNeighbours> tree;
+};
+
+/// Points at an even spacing, ranges from least to most; the scanner at the origin sees every normal's face.
+/// Throws Error when fewer than 500 points remain.
+PreparedScan prepare_scan(const std::string& name, const TileSource& source, double spacing_m, double least_range_m,
+                          double most_range_m, Progress& progress);
+
+}  // namespace adit

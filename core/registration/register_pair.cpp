@@ -1,0 +1,109 @@
+#include "core/registration/register_pair.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/foundation/parallel.h"
+#include "core/geometry/statistics.h"
+#include "core/registration/icp.h"
+#include "core/registration/ndt.h"
+#include "core/registration/observability.h"
+
+namespace adit {
+namespace {
+
+/// Robust Gauss-Newton with a shrinking reach; at most 20 steps a reach.
+Pose polished(const PreparedScan& target, const PreparedScan& source, Pose pose, double match_distance_m,
+              double spacing_m, Progress& progress) {
+  for (const double tukey_m : {0.5 * match_distance_m, 0.25 * match_distance_m, std::max(0.02, 0.4 * spacing_m)}) {
+    for (int iteration = 0; iteration < 20; ++iteration) {
+      progress.check();
+      const NormalEquations equations =
+          point_to_plane_equations(target, source, pose, match_distance_m, tukey_m, progress);
+      if (equations.weight < 50.0) return pose;
+      const Matrix6d damped = equations.hessian + 1e-6 * equations.weight * Matrix6d::Identity();
+      const Vector6d step = -damped.ldlt().solve(equations.gradient);
+      pose = stepped(pose, step);
+      if (step.head<3>().norm() < 2e-6 && step.tail<3>().norm() < 2e-5) break;
+    }
+  }
+  return pose;
+}
+
+void put_back_to_guess(Pose& pose, const Pose& guess, const std::vector<Eigen::Vector3d>& axes) {
+  for (const auto& axis : axes)
+    pose.translation() -= axis * axis.dot(pose.translation() - guess.translation());
+}
+
+double share_below(const std::vector<double>& values, double limit) {
+  if (values.empty()) return 0.0;
+  const auto n = std::count_if(values.begin(), values.end(), [&](double v) { return std::abs(v) < limit; });
+  return static_cast<double>(n) / static_cast<double>(values.size());
+}
+
+void judge(PairResult& pair, const PreparedScan& target, const PreparedScan& source, const Pose& guess,
+           const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress) {
+  const double tukey_m = std::max(0.02, 0.4 * options.spacing_m);
+  const auto equations_at = [&] {
+    return point_to_plane_equations(target, source, pair.target_from_source, options.match_distance_m, tukey_m, progress);
+  };
+  NormalEquations equations = equations_at();
+  const double noise = std::max(options.point_sigma_m, robust_sigma(equations.residuals_m));
+  const PairInformation known = judge_observability(equations, noise, axes, options.undetermined_sigma_m);
+  pair.sigma = known.sigma;
+  pair.undetermined = known.undetermined;
+  pair.information = known.information;
+  if (!known.undetermined_axes.empty()) {
+    put_back_to_guess(pair.target_from_source, guess, known.undetermined_axes);
+    equations = equations_at();
+  }
+  std::vector<double> sizes;
+  for (const double r : equations.residuals_m) sizes.push_back(std::abs(r));
+  pair.median_m = median(sizes);
+  pair.rms_m = root_mean_square(equations.residuals_m);
+  pair.median_distance_m = median(equations.distances_m);
+  pair.within_6mm = share_below(equations.residuals_m, 0.006);
+  pair.overlap = overlap_at(target, source, pair.target_from_source, 2.0 * options.spacing_m);
+}
+
+}  // namespace
+
+double overlap_at(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                  double distance_m) {
+  const auto reach2 = static_cast<float>(distance_m * distance_m);
+  const std::size_t near =
+      parallel_ordered_sum(source.points.size(), 4096, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const Eigen::Vector3d q = target_from_source * source.points[i].cast<double>();
+          if (target.tree->nearest(q.cast<float>()).squared_distance_m2 <= reach2) ++count;
+        }
+        return count;
+      });
+  return static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(1, source.points.size()));
+}
+
+PairResult register_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess,
+                         const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options, Progress& progress) {
+  PairResult pair;
+  pair.source = source.name;
+  pair.target = target.name;
+  Pose pose = guess;
+  for (const double cell_m : {2.0 * options.cell_m, options.cell_m}) {
+    NdtOptions ndt;
+    ndt.cell_m = cell_m;
+    ndt.source_spacing_m = 0.3 * cell_m;
+    Progress transform = progress.part(0.3, "");
+    pose = ndt_align(target, source, pose, ndt, transform);
+  }
+  IcpOptions icp;
+  icp.match_distance_m = 2.0 * options.match_distance_m;
+  Progress closest = progress.part(0.25, "");
+  pose = icp_align(target, source, pose, icp, closest);
+  Progress last = progress.part(0.15, "");
+  pair.target_from_source = polished(target, source, pose, options.match_distance_m, options.spacing_m, last);
+  judge(pair, target, source, guess, tunnel_axes(axis_in_target), options, last);
+  return pair;
+}
+
+}  // namespace adit

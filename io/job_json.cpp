@@ -1,0 +1,212 @@
+#include "io/job_json.h"
+
+#include <set>
+
+#include "core/foundation/angle.h"
+#include "io/json_place.h"
+#include "io/options_json.h"
+
+namespace adit::io {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+std::string existing_file(const JsonPlace& place, const fs::path& folder) {
+  const std::string name = place.text();
+  if (name.empty()) place.refuse("the name of a file is needed", "write it relative to the job's folder");
+  std::error_code error;
+  if (!fs::exists(folder / name, error))
+    place.refuse("there is no file \"" + name + "\"", "paths are relative to the job's folder: put it into " + folder.string());
+  if (fs::is_directory(folder / name, error)) place.refuse("\"" + name + "\" is a folder", "name a file");
+  return name;
+}
+
+Eigen::Vector3d vector3(const JsonPlace& place) {
+  const auto values = place.numbers(3);
+  for (const double value : values)
+    if (std::abs(value) > 1e8) place.refuse("a coordinate beyond 100,000 km", "metres are needed");
+  return {values[0], values[1], values[2]};
+}
+
+JobScan read_scan(const JsonPlace& place, const fs::path& folder) {
+  place.only_keys({"name", "file", "pose"});
+  JobScan scan;
+  scan.name = place.at("name").text();
+  if (scan.name.empty()) place.at("name").refuse("a scan needs a name", "write one, for instance S1");
+  scan.file = existing_file(place.at("file"), folder);
+  if (!place.has("pose")) return scan;
+  const JsonPlace pose = place.at("pose");
+  pose.only_keys({"position", "yaw_pitch_roll_deg"});
+  scan.position = vector3(pose.at("position"));
+  if (pose.has("yaw_pitch_roll_deg")) {
+    const auto turns = pose.at("yaw_pitch_roll_deg").numbers(3);
+    for (const double turn : turns)
+      if (std::abs(turn) > 360.0) pose.at("yaw_pitch_roll_deg").refuse("an angle beyond 360 degrees", "degrees are needed");
+    scan.angles = {rad_from_deg(turns[0]), rad_from_deg(turns[1]), rad_from_deg(turns[2])};
+  }
+  return scan;
+}
+
+std::vector<JobProfile> read_profiles(const JsonPlace& place, const fs::path& folder) {
+  std::vector<JobProfile> profiles;
+  if (place.is_text()) {
+    profiles.push_back({0.0, existing_file(place, folder), ""});
+    profiles.back().from_m = -1e9;
+    return profiles;
+  }
+  const std::vector<JsonPlace> places = place.is_object() ? std::vector<JsonPlace>{place} : place.items();
+  for (const JsonPlace& one : places) {
+    one.only_keys({"file", "layer", "from"});
+    JobProfile profile;
+    profile.file = existing_file(one.at("file"), folder);
+    profile.layer = one.text_or("layer", "");
+    profile.from_m = one.number_or("from", -1e9);
+    if (!profiles.empty() && profile.from_m <= profiles.back().from_m)
+      one.refuse("profiles must stand in order of \"from\"", "give every profile but the first a larger \"from\"");
+    profiles.push_back(profile);
+  }
+  if (profiles.empty()) place.refuse("at least one profile is needed", "name a file");
+  return profiles;
+}
+
+std::vector<DesignLine> read_lines(const JsonPlace& place) {
+  std::vector<DesignLine> lines;
+  std::set<std::string> names;
+  for (const JsonPlace& one : place.items()) {
+    one.only_keys({"name", "offset"});
+    lines.push_back({one.at("name").text(), one.at("offset").number_between(-10.0, 10.0, "m")});
+    if (!names.insert(lines.back().name).second) one.refuse("two lines have this name", "every number names its line: rename one");
+  }
+  if (lines.empty()) place.refuse("at least one line is needed", "for instance {\"name\": \"excavation\", \"offset\": 0.0}");
+  return lines;
+}
+
+JobChainage read_chainage(const JsonPlace& place) {
+  place.only_keys({"from", "to", "interval"});
+  JobChainage chainage;
+  chainage.from_m = place.at("from").number();
+  chainage.to_m = place.at("to").number();
+  if (place.has("interval")) chainage.interval_m = place.at("interval").number_between(0.01, 1e5, "m");
+  if (!(chainage.to_m > chainage.from_m)) place.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
+  if ((chainage.to_m - chainage.from_m) / chainage.interval_m > 100000.0)
+    place.refuse("more than 100,000 sections", "use a larger interval");
+  return chainage;
+}
+
+std::vector<JobRound> read_rounds(const JsonPlace& place) {
+  std::vector<JobRound> rounds;
+  for (const JsonPlace& one : place.items()) {
+    one.only_keys({"number", "from", "to", "drilled"});
+    JobRound round;
+    round.number = static_cast<int>(one.at("number").number_between(-1e6, 1e6, ""));
+    static_cast<void>(one.at("number").whole_number());
+    round.from_m = one.at("from").number();
+    round.to_m = one.at("to").number();
+    if (!(round.to_m > round.from_m)) one.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
+    if (one.has("drilled")) round.drilled_m = one.at("drilled").number_between(0.1, 30.0, "m");
+    rounds.push_back(round);
+  }
+  return rounds;
+}
+
+void check_names(const Job& job, const JsonPlace& scans) {
+  std::set<std::string> names;
+  for (const JobScan& scan : job.scans)
+    if (!names.insert(scan.name).second) scans.refuse("two scans are named \"" + scan.name + "\"", "rename one");
+}
+
+}  // namespace
+
+Job read_job(const fs::path& file) {
+  const json root = parse_json_file(file);
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  const JsonPlace place(root, file.string());
+  place.only_keys({"adit", "name", "client", "surveyor", "scans", "control", "targets", "alignment", "alignment_name", "profile",
+                   "lines", "chainage", "rounds", "options"});
+  if (place.at("adit").whole_number() != 1)
+    place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
+  Job job;
+  job.name = place.text_or("name", folder.filename().string());
+  job.client = place.text_or("client", "");
+  job.surveyor = place.text_or("surveyor", "");
+  for (const JsonPlace& scan : place.at("scans").items()) job.scans.push_back(read_scan(scan, folder));
+  if (job.scans.empty()) place.at("scans").refuse("the job has no scan", "name at least one scan file");
+  check_names(job, place.at("scans"));
+  if (place.has("control")) job.control = existing_file(place.at("control"), folder);
+  if (place.has("targets")) job.targets = existing_file(place.at("targets"), folder);
+  if (!job.targets.empty() && job.control.empty()) place.refuse("\"targets\" without \"control\"", "name the control file, too");
+  if (place.has("alignment")) job.alignment = existing_file(place.at("alignment"), folder);
+  job.alignment_name = place.text_or("alignment_name", "");
+  if (place.has("profile")) job.profiles = read_profiles(place.at("profile"), folder);
+  if (place.has("lines")) job.lines = read_lines(place.at("lines"));
+  if (place.has("chainage")) job.chainage = read_chainage(place.at("chainage"));
+  if (place.has("rounds")) job.rounds = read_rounds(place.at("rounds"));
+  if (place.has("options")) {
+    const JsonPlace options = place.at("options");
+    options.only_keys({"registration", "profiling", "surface"});
+    for_each_group(job.options, [&](const char* group, auto& members) {
+      if (!options.has(group)) return;
+      OptionsFromJson reader(options.at(group));
+      describe(reader, members);
+      reader.refuse_unknown();
+    });
+  }
+  return job;
+}
+
+std::string job_text(const Job& job) {
+  nlohmann::ordered_json root;
+  root["adit"] = 1;
+  root["name"] = job.name;
+  if (!job.client.empty()) root["client"] = job.client;
+  if (!job.surveyor.empty()) root["surveyor"] = job.surveyor;
+  for (const JobScan& scan : job.scans) {
+    nlohmann::ordered_json one{{"name", scan.name}, {"file", scan.file}};
+    if (scan.position) {
+      one["pose"]["position"] = {scan.position->x(), scan.position->y(), scan.position->z()};
+      one["pose"]["yaw_pitch_roll_deg"] = {deg_from_rad(scan.angles.yaw_rad), deg_from_rad(scan.angles.pitch_rad),
+                                           deg_from_rad(scan.angles.roll_rad)};
+    }
+    root["scans"].push_back(one);
+  }
+  if (!job.control.empty()) root["control"] = job.control;
+  if (!job.targets.empty()) root["targets"] = job.targets;
+  if (!job.alignment.empty()) root["alignment"] = job.alignment;
+  if (!job.alignment_name.empty()) root["alignment_name"] = job.alignment_name;
+  for (const JobProfile& profile : job.profiles) {
+    nlohmann::ordered_json one{{"file", profile.file}};
+    if (!profile.layer.empty()) one["layer"] = profile.layer;
+    if (profile.from_m > -1e9) one["from"] = profile.from_m;
+    root["profile"].push_back(one);
+  }
+  for (const DesignLine& line : job.lines) root["lines"].push_back({{"name", line.name}, {"offset", line.offset_m}});
+  if (job.chainage)
+    root["chainage"] = {{"from", job.chainage->from_m}, {"to", job.chainage->to_m}, {"interval", job.chainage->interval_m}};
+  for (const JobRound& round : job.rounds) {
+    nlohmann::ordered_json one{{"number", round.number}, {"from", round.from_m}, {"to", round.to_m}};
+    if (round.drilled_m > 0.0) one["drilled"] = round.drilled_m;
+    root["rounds"].push_back(one);
+  }
+  JobOptions standard;
+  json changed = json::object();
+  JobOptions own = job.options;
+  std::vector<json> defaults;
+  for_each_group(standard, [&](const char*, auto& members) {
+    OptionsToJson writer;
+    describe(writer, members);
+    defaults.push_back(writer.json);
+  });
+  std::size_t i = 0;
+  for_each_group(own, [&](const char* group, auto& members) {
+    OptionsToJson writer;
+    describe(writer, members);
+    for (const auto& [name, value] : writer.json.items())
+      if (defaults[i][name] != value) changed[group][name] = value;
+    ++i;
+  });
+  if (!changed.empty()) root["options"] = changed;
+  return root.dump(2) + "\n";
+}
+
+}  // namespace adit::io

@@ -1,0 +1,151 @@
+#include "io/json_place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "core/foundation/error.h"
+#include "core/foundation/options.h"
+
+namespace adit::io {
+namespace {
+
+std::string line_and_column(const std::string& text, std::size_t byte) {
+  std::size_t line = 1, column = 1;
+  for (std::size_t i = 0; i + 1 < byte && i < text.size(); ++i) {
+    ++column;
+    if (text[i] == '\n') {
+      ++line;
+      column = 1;
+    }
+  }
+  return std::to_string(line) + ":" + std::to_string(column);
+}
+
+/// Refuses an object with the same key twice: which one counts would be a guess.
+struct DoubleKeys {
+  std::vector<std::set<std::string>> open;
+  std::string twice;
+  bool operator()(int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+    using Event = nlohmann::json::parse_event_t;
+    if (event == Event::object_start) open.emplace_back();
+    if (event == Event::object_end && !open.empty()) open.pop_back();
+    if (event == Event::key && !open.empty() && !open.back().insert(value.get<std::string>()).second)
+      twice = value.get<std::string>();
+    return true;
+  }
+};
+
+}  // namespace
+
+nlohmann::json parse_json_file(const std::filesystem::path& file) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(file, missing))
+    throw Error("there is no such file", file.string(), "check the path");
+  if (std::filesystem::file_size(file) > (1U << 28))
+    throw Error("the file is larger than 256 MiB", file.string(), "this is not a file Adit reads as JSON");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw Error("the file cannot be opened", file.string(), "check its permissions");
+  const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  DoubleKeys keys;
+  nlohmann::json json;
+  try {
+    json = nlohmann::json::parse(text, std::ref(keys), true, true);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw Error("this is not JSON", file.string() + ":" + line_and_column(text, error.byte),
+                "look for a missing comma, quote or bracket just before");
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(std::string("this is not JSON: ") + error.what(), file.string(), "check numbers and characters");
+  }
+  if (!keys.twice.empty())
+    throw Error("the key \"" + keys.twice + "\" stands twice in one object", file.string(), "remove one of them");
+  return json;
+}
+
+std::string JsonPlace::found() const {
+  std::string text = value_->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  return text;
+}
+
+void JsonPlace::refuse(const std::string& what_is_wrong, const std::string& mend) const {
+  throw Error(what_is_wrong, key_.empty() ? file_ : file_ + ": " + key_, mend);
+}
+
+void JsonPlace::only_keys(std::initializer_list<const char*> known) const {
+  if (!value_->is_object()) refuse("an object { } is needed, found " + found(), "see docs/formats.md");
+  for (const auto& [name, member] : value_->items()) {
+    if (std::any_of(known.begin(), known.end(), [&, &key = name](const char* k) { return key == k; })) continue;
+    std::string list;
+    for (const char* k : known) list += (list.empty() ? "" : ", ") + std::string(k);
+    refuse("unknown key \"" + name + "\"", "known here: " + list);
+  }
+}
+
+bool JsonPlace::has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+
+JsonPlace JsonPlace::at(const std::string& key) const {
+  if (!value_->is_object()) refuse("an object { } is needed, found " + found(), "see docs/formats.md");
+  const auto member = value_->find(key);
+  if (member == value_->end()) refuse("the key \"" + key + "\" is missing", "add it; see docs/formats.md");
+  return {*member, file_, key_.empty() ? key : key_ + "." + key};
+}
+
+std::vector<JsonPlace> JsonPlace::items() const {
+  if (!value_->is_array()) refuse("a list [ ] is needed, found " + found(), "see docs/formats.md");
+  std::vector<JsonPlace> places;
+  for (std::size_t i = 0; i < value_->size(); ++i)
+    places.emplace_back((*value_)[i], file_, key_ + "[" + std::to_string(i) + "]");
+  return places;
+}
+
+std::vector<std::string> JsonPlace::keys() const {
+  if (!value_->is_object()) refuse("an object { } is needed, found " + found(), "see docs/formats.md");
+  std::vector<std::string> names;
+  for (const auto& [name, member] : value_->items()) names.push_back(name);
+  return names;
+}
+
+double JsonPlace::number() const {
+  if (!value_->is_number()) refuse("a number is needed, found " + found(), "write it without quotes, with a decimal point");
+  const double number = value_->get<double>();
+  if (!std::isfinite(number)) refuse("the number is too large", "check its unit");
+  return number;
+}
+
+double JsonPlace::number_between(double least, double most, const std::string& unit) const {
+  const double value = number();
+  if (value < least || value > most)
+    refuse("out of range, found " + found(),
+           "a value from " + short_number(least) + " to " + short_number(most) + (unit.empty() ? "" : " " + unit) + " is needed");
+  return value;
+}
+
+std::int64_t JsonPlace::whole_number() const {
+  if (!value_->is_number_integer()) refuse("a whole number is needed, found " + found(), "write it without quotes");
+  if (value_->is_number_unsigned() && value_->get<std::uint64_t>() > (1ULL << 62)) refuse("the number is too large", "check it");
+  return value_->get<std::int64_t>();
+}
+
+std::string JsonPlace::text() const {
+  if (!value_->is_string()) refuse("a text in quotes is needed, found " + found(), "put it in quotes");
+  return value_->get<std::string>();
+}
+
+bool JsonPlace::yes_or_no() const {
+  if (!value_->is_boolean()) refuse("true or false is needed, found " + found(), "write it without quotes");
+  return value_->get<bool>();
+}
+
+std::vector<double> JsonPlace::numbers(std::size_t count) const {
+  const auto places = items();
+  if (places.size() != count)
+    refuse(std::to_string(count) + " numbers are needed, found " + std::to_string(places.size()), "see docs/formats.md");
+  std::vector<double> values;
+  for (const auto& place : places) values.push_back(place.number());
+  return values;
+}
+
+}  // namespace adit::io

@@ -1,0 +1,48 @@
+#include "core/design/design_tunnel.h"
+
+#include <gtest/gtest.h>
+
+#include "core/foundation/error.h"
+#include "tests/core/profile_shapes.h"
+
+namespace adit {
+namespace {
+
+Alignment straight() {
+  HorizontalElement line{HorizontalKind::line, "Line 1", {600, 300}, 0.0, 100.0, 0.0, 0.0};
+  return Alignment(
+      "a", HorizontalAlignment({line}, 0.0),
+      VerticalAlignment({{0, 40, VerticalCurveKind::none, 0, 0}, {100, 40, VerticalCurveKind::none, 0, 0}}));
+}
+
+Profile named(const std::string& name, double radius_m) {
+  return Profile(name, shapes::circle(radius_m));
+}
+
+TEST(Design, ProfilesHoldUpToTheNext) {
+  const DesignTunnel design(straight(), {{10, named("narrow", 2)}, {50, named("wide", 3)}}, {{}});
+  EXPECT_EQ(design.profile_at(10).name(), "narrow");
+  EXPECT_EQ(design.profile_at(49.999).name(), "narrow");
+  EXPECT_EQ(design.profile_at(50).name(), "wide");
+  EXPECT_EQ(design.profile_at(1e6).name(), "wide");
+  EXPECT_EQ(design.profile_at(0).name(), "narrow");
+}
+
+TEST(Design, MovesWithTheOrigin) {
+  const DesignTunnel design(straight(), {{0, named("narrow", 2)}}, {{"excavation", 0.0}, {"pay", 0.25}});
+  const DesignTunnel moved = design.relative_to({600, 300, 40});
+  EXPECT_LT(moved.alignment().to_site({20, 1, 2}).x() - 1.0, 1e-12);
+  EXPECT_NEAR(moved.alignment().to_site({20, 1, 2}).z(), 2.0, 1e-12);
+  EXPECT_EQ(moved.lines().size(), 2U);
+}
+
+TEST(Design, RefusesAnIncompleteOrDisorderlyDesign) {
+  EXPECT_THROW(DesignTunnel(straight(), {}, {{}}), Error);
+  EXPECT_THROW(DesignTunnel(straight(), {{0, named("a", 2)}}, {}), Error);
+  EXPECT_THROW(DesignTunnel(straight(), {{0, Profile()}}, {{}}), Error);
+  EXPECT_THROW(DesignTunnel(straight(), {{50, named("a", 2)}, {10, named("b", 2)}}, {{}}), Error);
+  EXPECT_THROW(DesignTunnel(straight(), {{0, named("a", 2)}}, {{"pay", 0.0}, {"pay", 0.2}}), Error);
+}
+
+}  // namespace
+}  // namespace adit
