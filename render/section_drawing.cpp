@@ -23,7 +23,7 @@ PaperRing on_paper(const PlotArea& area, const Polygon& ring) {
   PaperRing points;
   points.reserve(ring.size());
   for (const Eigen::Vector2d& p : ring) points.push_back(area.at(p));
-  return points;
+  return thinned(points, 0.01);  // no printer shows more
 }
 
 std::vector<PaperRing> on_paper(const PlotArea& area, const std::vector<Polygon>& rings) {
@@ -180,7 +180,7 @@ void draw_section(Canvas& canvas, const Rect& rect, const Section& section, cons
   canvas.save();
   canvas.clip(area.rect);
   if (!lines.empty()) {
-    const OverUnder areas = over_under(section.outline, lines.front().ring);
+    const OverUnder areas = over_under(section.outline, lines.front().ring, lines.front().offset_m);
     canvas.fill(on_paper(area, areas.over), colours::overbreak_pale);
     canvas.fill(on_paper(area, areas.under), colours::underbreak_pale);
   }

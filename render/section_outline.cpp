@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
+
+#include "core/profiling/outline.h"
 
 namespace adit::render {
 namespace {
@@ -12,36 +14,11 @@ CellKind weaker(CellKind a, CellKind b) {
   return rank(a) > rank(b) ? a : b;
 }
 
-struct RingFoot {
-  std::size_t edge = 0;
-  double share = 0.0;  ///< along the edge
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-};
-
-RingFoot foot_on(const Polygon& ring, const Eigen::Vector2d& point) {
-  RingFoot best;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Eigen::Vector2d& a = ring[i];
-    const Eigen::Vector2d edge = ring[(i + 1) % ring.size()] - a;
-    const double length2 = edge.squaredNorm();
-    const double share = length2 > 0.0 ? std::clamp((point - a).dot(edge) / length2, 0.0, 1.0) : 0.0;
-    const Eigen::Vector2d position = a + share * edge;
-    const double distance2 = (point - position).squaredNorm();
-    if (distance2 < least) {
-      least = distance2;
-      best = {i, share, position};
-    }
-  }
-  return best;
-}
-
-// Corners of the ring between two feet, in the ring's sense; none when the second lies (a little) before the first.
-void follow(const Polygon& ring, const RingFoot& from, const RingFoot& to, Polygon& out) {
-  const std::size_t n = ring.size();
-  const std::size_t steps = (to.edge + n - from.edge) % n;
-  if (steps > n / 2) return;
-  for (std::size_t k = 1; k <= steps; ++k) out.push_back(ring[(from.edge + k) % n]);
+double distance_to(const Eigen::Vector2d& point, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d edge = b - a;
+  const double length2 = edge.squaredNorm();
+  const double share = length2 > 0.0 ? std::clamp((point - a).dot(edge) / length2, 0.0, 1.0) : 0.0;
+  return (point - a - share * edge).norm();
 }
 
 }  // namespace
@@ -62,26 +39,38 @@ std::vector<OutlineRun> outline_runs(const std::vector<OutlinePoint>& outline) {
   return runs;
 }
 
-Polygon outline_against(const std::vector<OutlinePoint>& outline, const Polygon& line) {
-  Polygon ring;
-  const std::size_t n = outline.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (outline[i].kind != CellKind::unseen || line.empty()) {
-      ring.push_back(outline[i].position);
-      continue;
-    }
-    const RingFoot foot = foot_on(line, outline[i].position);
-    ring.push_back(foot.position);
-    const OutlinePoint& next = outline[(i + 1) % n];
-    if (next.kind == CellKind::unseen) follow(line, foot, foot_on(line, next.position), ring);
-  }
-  return ring;
+OverUnder over_under(const std::vector<OutlinePoint>& outline, const Polygon& line, double offset_m) {
+  if (outline.size() < 3 || line.size() < 3) return {};
+  const Polygon as_built = polygon_of(outline, offset_m);
+  return {difference(as_built, line), difference(line, as_built)};
 }
 
-OverUnder over_under(const std::vector<OutlinePoint>& outline, const Polygon& line) {
-  if (outline.size() < 3 || line.size() < 3) return {};
-  const Polygon as_built = outline_against(outline, line);
-  return {difference(as_built, line), difference(line, as_built)};
+Polygon thinned(const Polygon& points, double tolerance) {
+  if (points.size() < 3) return points;
+  std::vector<char> kept(points.size(), 0);
+  kept.front() = kept.back() = 1;
+  std::vector<std::pair<std::size_t, std::size_t>> stretches{{0, points.size() - 1}};
+  while (!stretches.empty()) {
+    const auto [from, to] = stretches.back();
+    stretches.pop_back();
+    std::size_t worst = from;
+    double farthest = tolerance;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const double distance = distance_to(points[i], points[from], points[to]);
+      if (distance > farthest) {
+        farthest = distance;
+        worst = i;
+      }
+    }
+    if (worst == from) continue;
+    kept[worst] = 1;
+    stretches.emplace_back(from, worst);
+    stretches.emplace_back(worst, to);
+  }
+  Polygon result;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (kept[i] != 0) result.push_back(points[i]);
+  return result;
 }
 
 const OutlinePoint* outline_at(const std::vector<OutlinePoint>& outline, double p_m) {
