@@ -36,7 +36,7 @@ Ticks nice_ticks(double from, double to, int most) {
 }
 
 PlotArea true_scale_area(const Rect& room, const Eigen::AlignedBox2d& box, double& scale_denominator) {
-  static constexpr std::array round_scales{1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.5, 10.0};
+  static constexpr std::array round_scales{1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.5, 10.0};
   const Eigen::Vector2d size = box.sizes().cwiseMax(1e-3);
   const double least = 1000.0 * std::max(size.x() / room.width, size.y() / room.height);
   const double power = std::pow(10.0, std::floor(std::log10(least)));

@@ -8,7 +8,7 @@
 namespace adit::render {
 namespace {
 
-constexpr double margin = 1.04;  // of the picture around the points
+constexpr double margin = 1.08;  // of the picture around the points
 
 Eigen::Vector3d level(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d flat(direction.x(), direction.y(), 0.0);

@@ -63,8 +63,8 @@ DeviationScale deviation_scale(const std::vector<float>& deviations_m) {
   for (float d : deviations_m)
     if (std::isfinite(d)) values.push_back(static_cast<double>(d));
   if (values.empty()) return {};
-  const double low = std::min(0.0, quantile(values, 0.01));
-  const double high = std::max(0.0, quantile(std::move(values), 0.99));
+  const double low = std::min(0.0, quantile(values, 0.0005));
+  const double high = std::max(0.0, quantile(std::move(values), 0.9995));
   const double step = round_up(std::max((high - low) / 8.0, 0.005));
   const double below = std::ceil(-low / step - hair);
   const double above = std::ceil(high / step - hair);

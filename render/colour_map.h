@@ -19,8 +19,8 @@ struct DeviationScale {
   std::vector<double> boundaries_m() const;
 };
 
-/// The scale with about eight round classes that holds 98 % of the deviations; NaN are passed over. A default scale
-/// where there are none.
+/// The scale with about eight round classes that holds 99.9 % of the deviations; NaN are passed over. A default
+/// scale where there are none.
 DeviationScale deviation_scale(const std::vector<float>& deviations_m);
 
 /// Blue (underbreak), near white at zero, red (overbreak): distinct for colour-blind eyes. The colour of the class the

@@ -12,7 +12,7 @@ namespace adit::render {
 namespace {
 
 constexpr double text_mm = 2.2;
-constexpr double left_mm = 19.0;   // ticks and "left wall"
+constexpr double left_mm = 23.0;   // ticks and "left wall"
 constexpr double below_mm = 8.5;   // ticks and name of the chainage axis
 constexpr double rounds_mm = 4.0;  // numbers of rounds above a strip
 constexpr double legend_mm = 17.0;
@@ -73,22 +73,36 @@ Picture picture_of(const DeviationMap& map, const Strip& strip, const DeviationS
   return picture;
 }
 
+// Labels of strong marks first; a weak one that has no room beside them keeps its tick only.
+std::vector<bool> labelled(const std::vector<LineMark>& marks, double mm_per_m) {
+  std::vector<bool> chosen(marks.size(), false);
+  for (const bool strong : {true, false})
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      if (marks[i].strong != strong) continue;
+      chosen[i] = true;
+      for (std::size_t k = 0; k < marks.size() && chosen[i]; ++k)
+        if (k != i && chosen[k] && std::abs(marks[k].q_m - marks[i].q_m) * mm_per_m < 1.2 * text_mm) chosen[i] = false;
+    }
+  return chosen;
+}
+
 void draw_marks(Canvas& canvas, const PlotArea& area, const std::vector<LineMark>& marks) {
-  double last = -1e9;
-  for (const LineMark& mark : marks) {
-    const double y = area.rect.top + (mark.q_m - area.y_from) / (area.y_to - area.y_from) * area.rect.height;
+  const double mm_per_m = area.rect.height / (area.y_to - area.y_from);
+  const std::vector<bool> label = labelled(marks, mm_per_m);
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const double y = area.rect.top + (marks[i].q_m - area.y_from) * mm_per_m;
     if (y < area.rect.top - 1e-6 || y > area.rect.bottom() + 1e-6) continue;
-    if (mark.strong) canvas.line({area.rect.left, y}, {area.rect.right(), y}, {{0.2, 0.2, 0.2, 0.7}, 0.15, {2.0, 1.0}});
+    if (marks[i].strong)
+      canvas.line({area.rect.left, y}, {area.rect.right(), y}, {{0.2, 0.2, 0.2, 0.7}, 0.15, {2.0, 1.0}});
     canvas.line({area.rect.left - 1.0, y}, {area.rect.left, y}, {colours::grey, 0.2, {}});
-    if (y - last < 1.15 * text_mm) continue;
-    last = y;
-    canvas.text({area.rect.left - 1.4, y}, mark.label,
-                {.size_mm = text_mm, .bold = mark.strong, .across = Across::right, .down = Down::middle});
+    if (label[i])
+      canvas.text({area.rect.left - 1.4, y}, marks[i].label,
+                  {.size_mm = text_mm, .bold = marks[i].strong, .across = Across::right, .down = Down::middle});
   }
-  const double x = area.rect.left - left_mm + 1.0;
+  const double x = area.rect.left - left_mm + 0.5;
   const TextStyle side{.size_mm = text_mm, .colour = colours::grey, .across = Across::centre, .turn_rad = -M_PI / 2.0};
-  canvas.text({x, area.rect.top + 0.22 * area.rect.height}, "left", side);
-  canvas.text({x, area.rect.top + 0.78 * area.rect.height}, "right", side);
+  canvas.text({x, area.rect.top + 0.25 * area.rect.height}, "left", side);
+  canvas.text({x, area.rect.top + 0.75 * area.rect.height}, "right", side);
 }
 
 void draw_rounds(Canvas& canvas, const PlotArea& area, const std::vector<JobRound>& rounds) {
@@ -196,12 +210,6 @@ std::vector<LineMark> line_marks(const DesignTunnel& design, const DeviationMap&
     if (p != 0.0) marks.push_back({q_at(p), with_sign(p, ticks.decimals), false});
   for (const ProfileCorner& corner : profile.corners())
     marks.push_back({q_at(corner.p_m), "corner " + with_sign(corner.p_m, 1), true});
-  // Strong marks first where labels would overlap: a weak one near a strong one goes.
-  std::erase_if(marks, [&](const LineMark& m) {
-    return !m.strong && std::any_of(marks.begin(), marks.end(), [&](const LineMark& s) {
-      return s.strong && std::abs(s.q_m - m.q_m) < 0.4 * ticks.step;
-    });
-  });
   std::sort(marks.begin(), marks.end(), [](const LineMark& a, const LineMark& b) { return a.q_m < b.q_m; });
   return marks;
 }

@@ -40,22 +40,24 @@ void draw_north_arrow(Canvas& canvas, const PaperPoint& centre, double length_mm
 void draw_deviation_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, double text_mm) {
   const std::vector<double> boundaries = scale.boundaries_m();
   const double box_width = rect.width / static_cast<double>(boundaries.size() - 1);
-  const double box_top = rect.top + 1.35 * text_mm;
-  const double box_height = 3.2;
+  const double top = rect.top + 1.35 * text_mm, height = 3.2, bottom = top + height;
   const int decimals = std::abs(100.0 * scale.step_m - std::round(100.0 * scale.step_m)) > 1e-6 ? 1 : 0;
   double zero = rect.left;
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
     const double x = rect.left + static_cast<double>(i) * box_width;
     if (std::abs(boundaries[i]) < 1e-9) zero = x;
     if (i + 1 < boundaries.size()) {
-      const Rect box{x, box_top, box_width, box_height};
-      canvas.fill(box, deviation_colour(scale, (boundaries[i] + boundaries[i + 1]) / 2.0));
-      canvas.frame(box, {colours::grey, 0.12, {}});
+      PaperRing box = ring_of({x, top, box_width, height});
+      if (i == 0) box.emplace_back(x - 2.0, (top + bottom) / 2.0);
+      if (i + 2 == boundaries.size())
+        box.insert(box.begin() + 2, PaperPoint(x + box_width + 2.0, (top + bottom) / 2.0));
+      canvas.fill({box}, deviation_colour(scale, (boundaries[i] + boundaries[i + 1]) / 2.0));
+      canvas.polyline(box, {colours::grey, 0.12, {}}, true);
     }
-    canvas.text({x, box_top + box_height + 0.3}, with_sign(100.0 * boundaries[i], decimals),
+    canvas.text({x, bottom + 0.3}, with_sign(100.0 * boundaries[i], decimals),
                 {.size_mm = text_mm, .across = Across::centre});
   }
-  canvas.text({rect.right() + 5.0, box_top + box_height + 0.3}, "cm", {.size_mm = text_mm});
+  canvas.text({rect.right() + 5.0, bottom + 0.3}, "cm", {.size_mm = text_mm});
   canvas.text({zero - 1.0, rect.top}, "underbreak",
               {.size_mm = text_mm, .colour = colours::underbreak, .across = Across::right});
   canvas.text({zero + 1.0, rect.top}, "overbreak", {.size_mm = text_mm, .colour = colours::red});

@@ -12,6 +12,8 @@ namespace adit::render {
 namespace {
 
 constexpr double text_mm = 2.1;
+constexpr double row_mm = 1.42 * text_mm;
+constexpr double footer_mm = 5.0 * row_mm;
 const Pen excavation_pen{colours::ink_blue, 0.3, {}};
 const Pen other_line_pen{colours::ink_blue, 0.2, {1.6, 0.8}};
 const Pen measured_pen{colours::black, 0.35, {}};
@@ -40,7 +42,7 @@ Eigen::AlignedBox2d box_of(const Section& section, const std::vector<SectionLine
   if (box.isEmpty()) box.extend(Eigen::Vector2d(-5.0, -5.0)).extend(Eigen::Vector2d(5.0, 5.0));
   box.extend(Eigen::Vector2d::Zero());
   // Room for the labels of the extremes.
-  const Eigen::Vector2d margin(0.09 * box.sizes().x() + 0.4, 0.05 * box.sizes().y() + 0.3);
+  const Eigen::Vector2d margin(0.07 * box.sizes().x() + 0.3, 0.03 * box.sizes().y() + 0.2);
   return {box.min() - margin, box.max() + margin};
 }
 
@@ -68,26 +70,29 @@ void draw_outline(Canvas& canvas, const PlotArea& area, const std::vector<Outlin
   }
 }
 
-// A mark at the outline, a leader and the value with its sign.
+// A mark at the outline, a leader and the value with its sign, kept inside the frame.
 void draw_extreme(Canvas& canvas, const PlotArea& area, const Section& section, double p_m, double value_m, bool over) {
   const OutlinePoint* place = outline_at(section.outline, p_m);
   if (place == nullptr || value_m < 0.005) return;
   const PaperPoint at = area.at(place->position);
-  const PaperPoint middle = area.at(Eigen::Vector2d((area.x_from + area.x_to) / 2.0, (area.y_from + area.y_to) / 2.0));
-  PaperPoint away = (at - middle).normalized() * (over ? 1.0 : -1.0);
-  if (!away.allFinite()) away = PaperPoint(1.0, 0.0);
+  const PaperPoint outwards(place->normal.x(), -place->normal.y());
+  const PaperPoint away = outwards * (over ? 1.0 : -1.0);
   const Colour colour = over ? colours::red : colours::underbreak;
-  const PaperPoint end = at + away * 3.5;
+  const std::string words = with_sign(over ? value_m : -value_m, 2) + " m";
+  const TextStyle style{.size_mm = text_mm + 0.1, .colour = colour, .bold = true, .down = Down::middle, .halo_mm = 0.3};
+  const Eigen::Vector2d size = canvas.text_size(words, style);
+  const Rect inner = area.rect.inset(0.6);
+  PaperPoint end = at + away * 3.5;
+  double left = away.x() >= 0.0 ? end.x() + 0.4 : end.x() - 0.4 - size.x();
+  left = std::clamp(left, inner.left, inner.right() - size.x());
+  end.y() = std::clamp(end.y(), inner.top + size.y() / 2.0, inner.bottom() - size.y() / 2.0);
+  // Pushed back over its own mark: then above or below it.
+  if (left - 0.5 < at.x() && at.x() < left + size.x() + 0.5 && std::abs(end.y() - at.y()) < size.y())
+    end.y() = at.y() + (at.y() > inner.centre().y() ? -1.2 : 1.2) * size.y();
+  end.x() = std::clamp(end.x(), left, left + size.x());
   canvas.disc(at, 0.6, colour);
   canvas.line(at, end, {colour, 0.2, {}});
-  const bool to_right = away.x() >= 0.0;
-  canvas.text(end + PaperPoint(to_right ? 0.4 : -0.4, 0.0), with_sign(over ? value_m : -value_m, 2) + " m",
-              {.size_mm = text_mm + 0.1,
-               .colour = colour,
-               .bold = true,
-               .across = to_right ? Across::left : Across::right,
-               .down = Down::middle,
-               .halo_mm = 0.3});
+  canvas.text({left, end.y()}, words, style);
 }
 
 struct KeyLine {
@@ -109,38 +114,40 @@ std::vector<KeyLine> key_of(const std::vector<OutlineRun>& runs, const std::vect
   return key;
 }
 
-// Inside the section, where the paper is empty.
-void draw_key(Canvas& canvas, const PaperPoint& centre, const std::vector<KeyLine>& key) {
-  double widest = 0.0;
-  for (const KeyLine& line : key) widest = std::max(widest, canvas.text_size(line.name, {.size_mm = text_mm}).x());
-  const double sample = 6.0, step = 1.45 * text_mm;
-  const double left = centre.x() - (sample + 1.0 + widest) / 2.0;
-  double y = centre.y() - step * static_cast<double>(key.size() - 1) / 2.0;
+void draw_key(Canvas& canvas, const PaperPoint& at, double room_mm, const std::vector<KeyLine>& key) {
+  const double sample = 6.0;
+  double y = at.y() + 0.6 * text_mm;
   for (const KeyLine& line : key) {
-    canvas.line({left, y}, {left + sample, y}, line.pen);
-    canvas.text({left + sample + 1.0, y}, line.name, {.size_mm = text_mm, .down = Down::middle, .halo_mm = 0.3});
-    y += step;
+    canvas.line({at.x(), y}, {at.x() + sample, y}, line.pen);
+    canvas.text({at.x() + sample + 1.0, y}, line.name,
+                {.size_mm = text_mm, .down = Down::middle, .shorten_mm = room_mm - sample - 1.0});
+    y += row_mm;
   }
 }
 
-void draw_numbers(Canvas& canvas, const PaperPoint& at, const Section& section) {
+std::string extreme_words(const char* what, double value_m, double p_m) {
+  const std::string words = std::string(what) + fixed(value_m, 2) + " m";
+  return value_m > 0.0 ? words + " at p " + fixed(p_m, 1) + " m" : words;
+}
+
+void draw_numbers(Canvas& canvas, const PaperPoint& at, double room_mm, const Section& section) {
   if (section.lines.empty()) return;
   const SectionAreas& a = section.lines.front();
-  const TextStyle style{.size_mm = text_mm + 0.1};
-  const double step = 1.45 * style.size_mm;
-  canvas.text(at,
-              "design " + fixed(a.design_area_m2, 2) + "  excavated " + fixed(a.area_m2, 2) + "  over " +
-                  fixed(a.overbreak_m2, 2) + "  under " + fixed(a.underbreak_m2, 2) + " m\u00b2",
-              style);
-  canvas.text(at + PaperPoint(0.0, step),
-              "max over " + fixed(a.max_overbreak_m, 2) + " m at p " + fixed(a.max_overbreak_p_m, 1) + "  max under " +
-                  fixed(a.max_underbreak_m, 2) + " m at p " + fixed(a.max_underbreak_p_m, 1),
-              style);
+  const std::string unit = " m\u00b2";
+  const TextStyle style{.size_mm = text_mm, .shorten_mm = room_mm};
   TextStyle coverage = style;
   if (a.coverage < 0.8) coverage.colour = colours::red;
-  canvas.text(at + PaperPoint(0.0, 2.0 * step),
-              "against " + a.line + "  measured " + percent(a.coverage) + "  interpolated " + percent(a.interpolated),
-              coverage);
+  const auto row = [&](int i, const std::string& words, const TextStyle& s) {
+    canvas.text(at + PaperPoint(0.0, i * row_mm), words, s);
+  };
+  row(0, "against " + a.line, style);
+  row(1, "design " + fixed(a.design_area_m2, 2) + unit + "   excavated " + fixed(a.area_m2, 2) + unit, style);
+  row(2, "over " + fixed(a.overbreak_m2, 2) + unit + "   under " + fixed(a.underbreak_m2, 2) + unit, style);
+  row(3,
+      extreme_words("max over ", a.max_overbreak_m, a.max_overbreak_p_m) + "   " +
+          extreme_words("under ", a.max_underbreak_m, a.max_underbreak_p_m),
+      style);
+  row(4, "measured " + percent(a.coverage) + "   interpolated " + percent(a.interpolated), coverage);
 }
 
 }  // namespace
@@ -171,8 +178,7 @@ void draw_section(Canvas& canvas, const Rect& rect, const Section& section, cons
               "looking up-chainage, axis E " + fixed(section.axis_site.x(), 3) + "  N " +
                   fixed(section.axis_site.y(), 3) + "  H " + fixed(section.axis_site.z(), 3),
               {.size_mm = text_mm - 0.1, .colour = colours::grey});
-  const double numbers = 3.0 * 1.45 * (text_mm + 0.1) + 0.5;
-  const Rect room{rect.left + 7.5, rect.top + 8.0, rect.width - 8.0, rect.height - 8.0 - 7.2 - numbers};
+  const Rect room{rect.left + 7.5, rect.top + 8.0, rect.width - 8.0, rect.height - 8.0 - 7.6 - footer_mm};
   double scale = 0.0;
   const PlotArea area = true_scale_area(room, box_of(section, lines), scale);
   const AxisTexts texts{"offset [m]", "height [m]", text_mm - 0.2, 8, 6, true};
@@ -195,8 +201,6 @@ void draw_section(Canvas& canvas, const Rect& rect, const Section& section, cons
     draw_extreme(canvas, area, section, a.max_underbreak_p_m, a.max_underbreak_m, false);
   }
   canvas.restore();
-  const PaperPoint key_centre(area.rect.centre().x(), area.rect.top + 0.40 * area.rect.height);
-  draw_key(canvas, key_centre, key_of(runs, lines));
   if (section.outline.empty())
     canvas.text(area.at(0.0, 0.0) + PaperPoint(0.0, 4.0), "nothing measured here",
                 {.size_mm = text_mm + 0.4, .colour = colours::red, .across = Across::centre, .halo_mm = 0.4});
@@ -205,7 +209,10 @@ void draw_section(Canvas& canvas, const Rect& rect, const Section& section, cons
   draw_scale_bar(canvas, {area.rect.right() - 1.0 - mm_per_m * 2.0, area.rect.bottom() - 1.0}, mm_per_m, 2.0 * mm_per_m,
                  text_mm - 0.3);
   canvas.text({rect.right(), rect.top + 0.4}, "1 : " + fixed(scale, 0), {.size_mm = text_mm, .across = Across::right});
-  draw_numbers(canvas, {rect.left, rect.bottom() - numbers + 0.5}, section);
+  const double key_mm = 30.0;
+  const double top = rect.bottom() - footer_mm;
+  draw_numbers(canvas, {rect.left, top}, rect.width - key_mm - 1.0, section);
+  draw_key(canvas, {rect.right() - key_mm, top}, key_mm, key_of(runs, lines));
 }
 
 }  // namespace adit::render

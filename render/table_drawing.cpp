@@ -7,11 +7,16 @@ namespace {
 
 constexpr double pad_x = 1.0;
 constexpr double pad_y = 0.7;
+constexpr double pad_after_number = 2.6;
+
+double left_pad(const Table& table, std::size_t column) {
+  return column > 0 && table.columns[column - 1].number ? pad_after_number : pad_x;
+}
 
 TextStyle cell_style(const Table& table, std::size_t column, bool heading) {
   const TableColumn& c = table.columns[column];
   TextStyle style{.size_mm = table.text_mm, .bold = heading, .across = c.number ? Across::right : Across::left};
-  if (heading || !c.number) style.wrap_mm = c.width_mm - 2.0 * pad_x;
+  if (heading || !c.number) style.wrap_mm = c.width_mm - pad_x - (c.number ? pad_x : left_pad(table, column));
   return style;
 }
 
@@ -20,7 +25,7 @@ void draw_cell(Canvas& canvas, const PaperPoint& corner, const Table& table, std
   TextStyle style = cell_style(table, column, heading);
   style.colour = cell.colour;
   style.bold = heading || cell.bold;
-  const double x = table.columns[column].number ? table.columns[column].width_mm - pad_x : pad_x;
+  const double x = table.columns[column].number ? table.columns[column].width_mm - pad_x : left_pad(table, column);
   canvas.text(corner + PaperPoint(x, pad_y), cell.text, style);
 }
 

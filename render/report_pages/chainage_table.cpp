@@ -4,6 +4,10 @@
 namespace adit::render {
 namespace {
 
+std::string place(double extreme_m, double p_m) {
+  return extreme_m > 0.0 ? fixed(p_m, 1) : "\u2013";
+}
+
 constexpr double weak_coverage = 0.8;
 
 std::vector<TableCell> row_of(const Section& section) {
@@ -17,9 +21,9 @@ std::vector<TableCell> row_of(const Section& section) {
           fixed(a.overbreak_m2, 2),
           fixed(a.underbreak_m2, 2),
           fixed(a.max_overbreak_m, 2),
-          fixed(a.max_overbreak_p_m, 1),
+          place(a.max_overbreak_m, a.max_overbreak_p_m),
           fixed(a.max_underbreak_m, 2),
-          fixed(a.max_underbreak_p_m, 1),
+          place(a.max_underbreak_m, a.max_underbreak_p_m),
           TableCell(percent(a.coverage), weak ? colours::red : colours::black, weak),
           percent(a.interpolated)};
 }

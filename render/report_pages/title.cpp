@@ -29,9 +29,11 @@ void add_status(PageFlow& flow, const Results& results) {
   const Findings findings = all_findings(results);
   const auto decisions = std::count_if(findings.begin(), findings.end(),
                                        [](const Finding& f) { return f.severity == Severity::decision; });
-  std::string words = accepted ? "ACCEPTED: every scan is placed and every direction is determined"
-                               : "NOT ACCEPTED: a person must look";
-  if (decisions > 0) words += " (" + std::to_string(decisions) + (decisions == 1 ? " decision)" : " decisions)");
+  std::string words = "ACCEPTED: every scan is placed and every direction is determined";
+  if (!accepted && decisions == 0) words = "NOT ACCEPTED: the registration is not complete";
+  if (decisions > 0)
+    words = "NOT ACCEPTED: a person must decide (" + std::to_string(decisions) +
+            (decisions == 1 ? " finding)" : " findings)");
   flow.canvas().text(
       {band.left + 4.0, band.centre().y()}, words,
       {.size_mm = 3.6, .colour = colour, .bold = true, .down = Down::middle, .shorten_mm = band.width - 6.0});

@@ -142,10 +142,11 @@ void add_volume_pages(PageFlow& flow, const ReportContent& content) {
                  colours::black, 2.8, true);
   add_methods(flow, volume.lines);
   add_quality(flow, volume.lines);
+  if (content.results->profile && !content.results->profile->sections.empty()) {
+    flow.subheading("Along the chainage, against " + first.line, 84.0);
+    draw_volume_chart(flow.canvas(), flow.take(74.0), content.results->profile->sections, content.job->rounds);
+  }
   add_rounds(flow, volume);
-  if (!content.results->profile || content.results->profile->sections.empty()) return;
-  flow.subheading("Along the chainage, against " + first.line, 92.0);
-  draw_volume_chart(flow.canvas(), flow.take(82.0), content.results->profile->sections, content.job->rounds);
 }
 
 }  // namespace adit::render

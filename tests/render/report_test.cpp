@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/foundation/error.h"
 #include "render/page.h"
@@ -31,6 +32,11 @@ bool has(const ReportFiles& files, const std::string& name) {
                      [&](const ReportPicture& p) { return p.name == name; });
 }
 
+const tests::SampleJob& sample_job() {
+  static const tests::SampleJob sample;
+  return sample;
+}
+
 ReportFiles report_of(const ReportContent& content) {
   const auto context = make_osmesa_context();
   Progress progress;
@@ -39,8 +45,8 @@ ReportFiles report_of(const ReportContent& content) {
 
 }  // namespace
 
-TEST(Report, EverythingIsDrawnAndTheBytesAreTheSameTwice) {
-  const tests::SampleJob sample;
+TEST(ReportSlow, EverythingIsDrawnAndTheBytesAreTheSameTwice) {
+  const tests::SampleJob& sample = sample_job();
   const ReportFiles first = report_of(sample.content);
   tests::keep_for_a_look("report.pdf", first.pdf);
   for (const ReportPicture& picture : first.pictures)
@@ -76,7 +82,7 @@ TEST(Report, LeavesOutWhatIsAbsentAndSaysSo) {
 }
 
 TEST(Report, OneScanWithoutDesign) {
-  const tests::SampleJob sample;
+  const tests::SampleJob& sample = sample_job();
   Results results;
   results.registration.accepted = true;
   results.registration.scans = {sample.results.registration.scans.front()};
@@ -130,7 +136,7 @@ TEST(Report, RefusesWhatItCannotDraw) {
 }
 
 TEST(Report, CanBeCancelled) {
-  const tests::SampleJob sample;
+  const tests::SampleJob& sample = sample_job();
   const std::atomic<bool> cancelled{true};
   ProgressTarget target(nullptr, &cancelled);
   Progress progress(target);
