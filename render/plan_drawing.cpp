@@ -134,7 +134,6 @@ void draw_axis(Canvas& canvas, LabelRoom& room, const PlotArea& area, const Plan
   PaperRing points;
   for (const PlanAxisPoint& p : plan.axis) points.push_back(area.at(turn.turned(p.position)));
   canvas.polyline(points, {colours::ink_blue, 0.35, {4.0, 0.8, 0.6, 0.8}});
-  for (const PaperPoint& p : points) room.block(p, 0.8);
   const Ticks ticks = nice_ticks(plan.axis.front().chainage_m, plan.axis.back().chainage_m, 9);
   for (double s : ticks.values) {
     const PaperPoint at = axis_point(area, plan, turn, s);
@@ -154,7 +153,7 @@ void draw_places(Canvas& canvas, LabelRoom& room, const PlotArea& area, const Tu
       canvas.line(at - PaperPoint(0.0, 1.0), at + PaperPoint(0.0, 1.0), {colours::green, 0.3, {}});
     }
     room.block(at, 1.2);
-    label_beside(canvas, room, at, 1.5, place.name,
+    label_beside(canvas, room, at, station ? 2.0 : 1.5, place.name,
                  {.size_mm = text_mm, .colour = station ? colours::black : colours::green, .bold = station});
   }
 }
@@ -174,6 +173,7 @@ void draw_plan(Canvas& canvas, const Rect& rect, const Plan& plan) {
   room.take({rect.left + 1.0, rect.top + 1.0, 30.0, 5.0});
   room.take({rect.left + 1.0, rect.bottom() - 8.0, 36.0, 7.0});
   room.take({rect.right() - 12.0, rect.top + 1.0, 11.0, 15.0});
+  for (const PlanAxisPoint& p : plan.axis) room.block(area.at(turn.turned(p.position)), 0.8);
   canvas.save();
   canvas.clip(rect);
   draw_places(canvas, room, area, turn, plan.stations, true);

@@ -38,8 +38,9 @@ void draw_labels(Canvas& canvas, const Scene& scene, const Camera& camera, int w
 void draw_signs(Canvas& canvas, const Scene& scene, const Camera& camera, int height) {
   const double w = canvas.width_mm(), h = canvas.height_mm();
   if (camera.orthographic) {
-    canvas.fill(Rect{1.5, h - 8.5, 0.2 * w + 4.0, 7.0}, {1.0, 1.0, 1.0, 0.8});
-    draw_scale_bar(canvas, {3.0, h - 3.0}, height / camera.view_height_m * mm_per_pixel, 0.2 * w, 2.6);
+    const double bottom = scene.name_clouds ? h - 3.0 : 8.0;  // where the names do not stand
+    canvas.fill(Rect{1.5, bottom - 5.5, 0.2 * w + 4.0, 7.0}, {1.0, 1.0, 1.0, 0.8});
+    draw_scale_bar(canvas, {3.0, bottom}, height / camera.view_height_m * mm_per_pixel, 0.2 * w, 2.6);
     const CameraAxes axes = axes_of(camera);
     // Only in plan: elsewhere an arrow to the north would mislead.
     if (axes.ahead.z() < -0.999) draw_north_arrow(canvas, {w - 7.0, 9.0}, 8.0, std::atan2(axes.right.y(), axes.up.y()));

@@ -122,8 +122,8 @@ vtkSmartPointer<vtkActor> mesh_actor(const SceneMesh& mesh, const DeviationScale
     colour_by_deviation(actor, shape, mesh.deviations_m, scale);
   set_colour(actor, mesh.colour);
   // Much ambient light: the colours must be those of the legend, the shading only hints at the form.
-  actor->GetProperty()->SetAmbient(0.70);
-  actor->GetProperty()->SetDiffuse(0.30);
+  actor->GetProperty()->SetAmbient(0.80);
+  actor->GetProperty()->SetDiffuse(0.20);
   return actor;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double text_mm = 2.1;
 constexpr double row_mm = 1.42 * text_mm;
-constexpr double footer_mm = 5.0 * row_mm;
+constexpr double footer_mm = 4.8 * row_mm;
 const Pen excavation_pen{colours::ink_blue, 0.3, {}};
 const Pen other_line_pen{colours::ink_blue, 0.2, {1.6, 0.8}};
 const Pen measured_pen{colours::black, 0.35, {}};
@@ -86,9 +86,9 @@ void draw_extreme(Canvas& canvas, const PlotArea& area, const Section& section, 
   double left = away.x() >= 0.0 ? end.x() + 0.4 : end.x() - 0.4 - size.x();
   left = std::clamp(left, inner.left, inner.right() - size.x());
   end.y() = std::clamp(end.y(), inner.top + size.y() / 2.0, inner.bottom() - size.y() / 2.0);
-  // Pushed back over its own mark: then above or below it.
-  if (left - 0.5 < at.x() && at.x() < left + size.x() + 0.5 && std::abs(end.y() - at.y()) < size.y())
-    end.y() = at.y() + (at.y() > inner.centre().y() ? -1.2 : 1.2) * size.y();
+  // Pushed back over its own mark: then beside it.
+  if (left - 0.8 < at.x() && at.x() < left + size.x() + 0.8 && std::abs(end.y() - at.y()) < 0.8 * size.y())
+    left = at.x() + 1.5 + size.x() < inner.right() ? at.x() + 1.5 : at.x() - 1.5 - size.x();
   end.x() = std::clamp(end.x(), left, left + size.x());
   canvas.disc(at, 0.6, colour);
   canvas.line(at, end, {colour, 0.2, {}});
@@ -125,29 +125,25 @@ void draw_key(Canvas& canvas, const PaperPoint& at, double room_mm, const std::v
   }
 }
 
-std::string extreme_words(const char* what, double value_m, double p_m) {
-  const std::string words = std::string(what) + fixed(value_m, 2) + " m";
-  return value_m > 0.0 ? words + " at p " + fixed(p_m, 1) + " m" : words;
+std::string break_words(const char* what, double area_m2, double most_m, double p_m) {
+  const std::string words = what + fixed(area_m2, 2) + " m\u00b2   max " + fixed(most_m, 2) + " m";
+  return most_m > 0.0 ? words + " at p " + fixed(p_m, 1) + " m" : words;
 }
 
 void draw_numbers(Canvas& canvas, const PaperPoint& at, double room_mm, const Section& section) {
   if (section.lines.empty()) return;
   const SectionAreas& a = section.lines.front();
-  const std::string unit = " m\u00b2";
   const TextStyle style{.size_mm = text_mm, .shorten_mm = room_mm};
   TextStyle coverage = style;
   if (a.coverage < 0.8) coverage.colour = colours::red;
   const auto row = [&](int i, const std::string& words, const TextStyle& s) {
     canvas.text(at + PaperPoint(0.0, i * row_mm), words, s);
   };
-  row(0, "against " + a.line, style);
-  row(1, "design " + fixed(a.design_area_m2, 2) + unit + "   excavated " + fixed(a.area_m2, 2) + unit, style);
-  row(2, "over " + fixed(a.overbreak_m2, 2) + unit + "   under " + fixed(a.underbreak_m2, 2) + unit, style);
-  row(3,
-      extreme_words("max over ", a.max_overbreak_m, a.max_overbreak_p_m) + "   " +
-          extreme_words("under ", a.max_underbreak_m, a.max_underbreak_p_m),
-      style);
-  row(4, "measured " + percent(a.coverage) + "   interpolated " + percent(a.interpolated), coverage);
+  row(0, "design " + fixed(a.design_area_m2, 2) + " m\u00b2   excavated " + fixed(a.area_m2, 2) + " m\u00b2", style);
+  row(1, break_words("over ", a.overbreak_m2, a.max_overbreak_m, a.max_overbreak_p_m), style);
+  row(2, break_words("under ", a.underbreak_m2, a.max_underbreak_m, a.max_underbreak_p_m), style);
+  row(3, "measured " + percent(a.coverage) + "   interpolated " + percent(a.interpolated), coverage);
+  row(4, "against " + a.line, style);
 }
 
 }  // namespace
@@ -175,13 +171,13 @@ std::string section_title(const Section& section) {
 void draw_section(Canvas& canvas, const Rect& rect, const Section& section, const std::vector<SectionLine>& lines) {
   canvas.text({rect.left, rect.top}, section_title(section), {.size_mm = 3.0, .bold = true});
   canvas.text({rect.left, rect.top + 4.2},
-              "looking up-chainage, axis E " + fixed(section.axis_site.x(), 3) + "  N " +
+              "looking up-chainage, metres   axis E " + fixed(section.axis_site.x(), 3) + "  N " +
                   fixed(section.axis_site.y(), 3) + "  H " + fixed(section.axis_site.z(), 3),
               {.size_mm = text_mm - 0.1, .colour = colours::grey});
-  const Rect room{rect.left + 7.5, rect.top + 8.0, rect.width - 8.0, rect.height - 8.0 - 7.6 - footer_mm};
+  const Rect room{rect.left + 5.5, rect.top + 7.6, rect.width - 5.5, rect.height - 7.6 - 4.2 - footer_mm};
   double scale = 0.0;
   const PlotArea area = true_scale_area(room, box_of(section, lines), scale);
-  const AxisTexts texts{"offset [m]", "height [m]", text_mm - 0.2, 8, 6, true};
+  const AxisTexts texts{"", "", text_mm - 0.2, 8, 6, true};
   draw_grid(canvas, area, texts);
   canvas.save();
   canvas.clip(area.rect);

@@ -123,7 +123,7 @@ void draw_volume_chart(Canvas& canvas, const Rect& rect, const std::vector<Secti
     x += 32.0;
   }
   canvas.line({x, y}, {x + 5.0, y}, excess_pen);
-  canvas.text({x + 6.0, y}, "overbreak minus underbreak, added up by average end areas",
+  canvas.text({x + 6.0, y}, "excess (over minus under) added up by end areas",
               {.size_mm = text_mm, .down = Down::middle});
 }
 
