@@ -76,7 +76,7 @@ struct Mapper {
     std::optional<double> hint;
     for (const auto& point : scan.points->read(ref.tile).points) {
       const double range = static_cast<double>(point.norm());
-      if (range < options.least_range_m || range > options.most_range_m) continue;
+      if (scan.scanner_at_origin && (range < options.least_range_m || range > options.most_range_m)) continue;
       const auto at = design.alignment().to_tunnel(scan.local_from_scan * point.cast<double>(), hint);
       if (!at) continue;
       hint = at->s_m;
