@@ -1,0 +1,68 @@
+#include "render/number_text.h"
+#include "render/report_pages.h"
+
+namespace adit::render {
+namespace {
+
+std::string place(double extreme_m, double p_m) {
+  return extreme_m > 0.0 ? fixed(p_m, 1) : "\u2013";
+}
+
+constexpr double weak_coverage = 0.8;
+
+std::vector<TableCell> row_of(const Section& section) {
+  if (section.lines.empty()) return {fixed(section.chainage_m, 2), fixed(section.station_m, 2)};
+  const SectionAreas& a = section.lines.front();
+  const bool weak = a.coverage < weak_coverage;
+  return {fixed(section.chainage_m, 2),
+          fixed(section.station_m, 2),
+          fixed(a.design_area_m2, 2),
+          fixed(a.area_m2, 2),
+          fixed(a.overbreak_m2, 2),
+          fixed(a.underbreak_m2, 2),
+          fixed(a.max_overbreak_m, 2),
+          place(a.max_overbreak_m, a.max_overbreak_p_m),
+          fixed(a.max_underbreak_m, 2),
+          place(a.max_underbreak_m, a.max_underbreak_p_m),
+          TableCell(percent(a.coverage), weak ? colours::red : colours::black, weak),
+          percent(a.interpolated)};
+}
+
+}  // namespace
+
+void add_chainage_pages(PageFlow& flow, const ReportContent& content) {
+  if (!content.results->profile || content.results->profile->sections.empty()) return;
+  const ProfileResult& profile = *content.results->profile;
+  const SectionAreas* first =
+      profile.sections.front().lines.empty() ? nullptr : &profile.sections.front().lines.front();
+  flow.start("Sections: areas and extremes");
+  flow.paragraph("Against the line: " + (first != nullptr ? first->line : std::string("(none)")) +
+                     ". Over- and underbreak outside and inside of it; p is the arc length along the design line from "
+                     "the crown, right "
+                     "positive looking up-chainage. Sections measured to less than 80 % are marked red.",
+                 colours::black, 2.4);
+  Table table{{{"chainage m", 17, true},
+               {"station m", 17, true},
+               {"design m\u00b2", 15, true},
+               {"excavated m\u00b2", 18, true},
+               {"over m\u00b2", 14, true},
+               {"under m\u00b2", 14, true},
+               {"max over m", 14, true},
+               {"at p m", 12, true},
+               {"max under m", 14, true},
+               {"at p m", 12, true},
+               {"measured", 16, true},
+               {"interpol.", 15, true}},
+              {},
+              2.3};
+  for (const Section& section : profile.sections) table.rows.push_back(row_of(section));
+  flow.table(table);
+  if (first != nullptr && profile.sections.front().lines.size() > 1)
+    flow.paragraph("The areas against the other lines stand in sections.csv.", colours::grey, 2.3);
+  flow.paragraph("Points used " + grouped(profile.points_used) +
+                     "; left out inside the line (equipment, people, muck) " + grouped(profile.points_inside) +
+                     "; left out far outside it " + grouped(profile.points_outside) + ".",
+                 colours::grey, 2.3);
+}
+
+}  // namespace adit::render
