@@ -32,11 +32,11 @@ struct ScanSummary {
   std::string name;
   std::uint64_t points = 0;
   std::optional<Pose> pose;
-  BoundingBox box;                       ///< file coordinates; empty when not known without reading all points
-  std::vector<std::string> attributes;   ///< "intensity", "colour", "normals", ...
+  BoundingBox box;                      ///< file coordinates; empty when not known without reading all points
+  std::vector<std::string> attributes;  ///< "intensity", "colour", "normals", ...
 };
 struct ScanFileSummary {
-  std::string format;                    ///< "PLY binary little endian", "LAS 1.4 point format 6", ...
+  std::string format;  ///< "PLY binary little endian", "LAS 1.4 point format 6", ...
   std::vector<ScanSummary> scans;
 };
 

@@ -1,0 +1,76 @@
+#include "io/las.h"
+
+#include "io/bytes.h"
+#include "io/cloud_builder.h"
+#include "io/las_header.h"
+
+namespace adit::io {
+namespace {
+
+constexpr std::uint64_t points_between_checks = 8192;
+
+Attributes attributes_of(const LasHeader& header) {
+  return {true, las_point_format(header.point_format).colour_offset.has_value(), false};
+}
+
+/// Colours should fill 16 bits, but many files hold plain bytes: then no value is over 255.
+bool colours_fill_16_bits(const InputFile& file, const LasHeader& header, const Progress& progress) {
+  const std::uint16_t offset = *las_point_format(header.point_format).colour_offset;
+  ByteCursor cursor(file, header.points_offset, file.size());
+  for (std::uint64_t i = 0; i < header.points; ++i) {
+    if (i % points_between_checks == 0) progress.check();
+    const std::byte* record = cursor.take(header.record_bytes);
+    for (std::size_t c = 0; c < 3; ++c)
+      if (little<std::uint16_t>(record + offset + 2 * c) > 255) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_las(std::string_view beginning) {
+  return beginning.starts_with("LASF");
+}
+
+ScanData read_las(const std::filesystem::path& path, const ReadOptions& options, Progress& progress) {
+  const InputFile file(path);
+  const LasHeader header = read_las_header(file);
+  const Attributes attributes = attributes_of(header);
+  const std::uint16_t colour_offset = las_point_format(header.point_format).colour_offset.value_or(0);
+  const int shift = attributes.colour && colours_fill_16_bits(file, header, progress) ? 8 : 0;
+  CloudBuilder builder(attributes, options);
+  builder.expect(header.points);
+  ByteCursor cursor(file, header.points_offset, file.size());
+  FilePoint point;
+  for (std::uint64_t i = 0; i < header.points; ++i) {
+    if (i % points_between_checks == 0) progress.step(i, header.points);
+    const std::byte* record = cursor.take(header.record_bytes);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      point.position[k] = little<std::int32_t>(record + 4 * axis) * header.scale[k] + header.offset[k];
+    }
+    point.intensity = static_cast<float>(little<std::uint16_t>(record + las_intensity_offset));
+    if (attributes.colour)
+      for (std::size_t c = 0; c < 3; ++c)
+        point.colour[c] = static_cast<std::uint8_t>(little<std::uint16_t>(record + colour_offset + 2 * c) >> shift);
+    builder.add(point, [&] { return file.name() + ": point " + std::to_string(i + 1); });
+  }
+  return builder.finished(path.stem().string(), file.name(), progress);
+}
+
+ScanFileSummary summarise_las(const std::filesystem::path& path) {
+  const InputFile file(path);
+  const LasHeader header = read_las_header(file);
+  ScanFileSummary summary;
+  summary.format =
+      "LAS 1." + std::to_string(header.minor_version) + " point format " + std::to_string(header.point_format);
+  ScanSummary scan;
+  scan.name = path.stem().string();
+  scan.points = header.points;
+  scan.box = header.box;
+  scan.attributes = attribute_names(attributes_of(header));
+  summary.scans.push_back(scan);
+  return summary;
+}
+
+}  // namespace adit::io

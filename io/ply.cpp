@@ -1,0 +1,216 @@
+#include "io/ply.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/foundation/error.h"
+#include "io/bytes.h"
+#include "io/ply_header.h"
+#include "io/text_place.h"
+
+namespace adit::io {
+namespace {
+
+constexpr std::uint64_t points_between_checks = 8192;
+
+/// Colours are bytes, 16-bit numbers or fractions of one, as the type says.
+std::uint8_t colour_byte(double value, PlyType type) {
+  if (!std::isfinite(value)) return 0;
+  double byte = value;
+  if (type == PlyType::int8 && value < 0.0) byte = value + 256.0;
+  if (type == PlyType::uint16 || type == PlyType::int16) byte = std::floor(value / 256.0);
+  if (type == PlyType::float32 || type == PlyType::float64) byte = std::round(value * 255.0);
+  return static_cast<std::uint8_t>(std::clamp(byte, 0.0, 255.0));
+}
+
+void put(FilePoint& point, PlyTarget target, PlyType type, double value) {
+  switch (target) {
+    case PlyTarget::x:
+    case PlyTarget::y:
+    case PlyTarget::z:
+      point.position[static_cast<int>(target) - static_cast<int>(PlyTarget::x)] = value;
+      break;
+    case PlyTarget::intensity:
+      point.intensity = static_cast<float>(value);
+      break;
+    case PlyTarget::red:
+    case PlyTarget::green:
+    case PlyTarget::blue:
+      point.colour[static_cast<std::size_t>(target) - static_cast<std::size_t>(PlyTarget::red)] =
+          colour_byte(value, type);
+      break;
+    case PlyTarget::nx:
+    case PlyTarget::ny:
+    case PlyTarget::nz:
+      point.normal[static_cast<int>(target) - static_cast<int>(PlyTarget::nx)] = static_cast<float>(value);
+      break;
+    case PlyTarget::none:
+      break;
+  }
+}
+
+/// One property of a vertex and what it is to us.
+struct Column {
+  PlyTarget target;
+  PlyType type;
+  std::optional<PlyType> list_count;
+  std::size_t offset;  ///< in a row without lists
+};
+
+std::vector<Column> columns_of(const PlyElement& vertex) {
+  std::vector<Column> columns;
+  std::size_t offset = 0;
+  for (const PlyProperty& property : vertex.properties) {
+    const PlyTarget target = property.list_count ? PlyTarget::none : ply_target(property.name);
+    columns.push_back({target, property.type, property.list_count, offset});
+    offset += size_of(property.type);
+  }
+  return columns;
+}
+
+std::uint64_t checked_length(const InputFile& file, std::uint64_t offset, double length) {
+  if (length >= 0.0 && length == std::floor(length) && length <= 4294967295.0)
+    return static_cast<std::uint64_t>(length);
+  throw Error("a list cannot have this length", file.at_byte(offset), "the file is damaged; export it again");
+}
+
+void skip_binary_row(const InputFile& file, const PlyHeader& header, const PlyElement& element, ByteCursor& cursor) {
+  for (const PlyProperty& property : element.properties) {
+    if (!property.list_count) {
+      cursor.skip(size_of(property.type));
+      continue;
+    }
+    const std::uint64_t at = cursor.position();
+    const double length = ply_value(*property.list_count, header.order, cursor.take(size_of(*property.list_count)));
+    cursor.skip(checked_length(file, at, length) * size_of(property.type));
+  }
+}
+
+/// Passes over the elements that stand before the vertices.
+void skip_to_vertices(const InputFile& file, const PlyHeader& header, ByteCursor& cursor, const Progress& progress) {
+  for (std::size_t e = 0; e < header.vertex; ++e) {
+    const PlyElement& element = header.elements[e];
+    if (!element.has_lists()) {
+      cursor.skip(element.count * element.row_bytes());
+      continue;
+    }
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      if (row % points_between_checks == 0) progress.check();
+      skip_binary_row(file, header, element, cursor);
+    }
+  }
+}
+
+void read_row_with_lists(const InputFile& file, std::endian order, const std::vector<Column>& columns,
+                         ByteCursor& cursor, FilePoint& point) {
+  for (const Column& column : columns) {
+    const std::uint64_t at = cursor.position();
+    if (column.list_count) {
+      const double length = ply_value(*column.list_count, order, cursor.take(size_of(*column.list_count)));
+      cursor.skip(checked_length(file, at, length) * size_of(column.type));
+    } else {
+      put(point, column.target, column.type, ply_value(column.type, order, cursor.take(size_of(column.type))));
+    }
+  }
+}
+
+void read_binary(const InputFile& file, const PlyHeader& header, CloudBuilder& builder, const Progress& progress) {
+  const PlyElement& vertex = header.elements[header.vertex];
+  std::vector<Column> columns = columns_of(vertex);
+  const auto row_bytes = static_cast<std::size_t>(vertex.row_bytes());
+  const bool has_lists = vertex.has_lists();
+  if (!has_lists) std::erase_if(columns, [](const Column& column) { return column.target == PlyTarget::none; });
+  ByteCursor cursor(file, header.body_offset, file.size());
+  skip_to_vertices(file, header, cursor, progress);
+  FilePoint point;
+  for (std::uint64_t i = 0; i < vertex.count; ++i) {
+    if (i % points_between_checks == 0) progress.step(i, vertex.count);
+    const std::uint64_t at = cursor.position();
+    if (has_lists) {
+      read_row_with_lists(file, header.order, columns, cursor, point);
+    } else {
+      const std::byte* row = cursor.take(row_bytes);
+      for (const Column& column : columns)
+        put(point, column.target, column.type, ply_value(column.type, header.order, row + column.offset));
+    }
+    builder.add(point, [&] { return file.at_byte(at) + " (point " + std::to_string(i + 1) + ")"; });
+  }
+}
+
+void next_row(LineReader& lines, const std::string& of) {
+  if (!lines.next_with_text())
+    throw Error("the file ends before the last of the " + of, lines.place(),
+                "the file is cut short; copy or export it again");
+}
+
+void read_text_row(LineReader& lines, const std::vector<Column>& columns, FilePoint& point) {
+  const std::vector<Field>& fields = lines.fields_between_blanks();
+  std::size_t next = 0;
+  for (const Column& column : columns) {
+    if (next >= fields.size()) lines.fail("the line holds fewer values than the header says", "export the file again");
+    if (column.list_count) {
+      const std::uint64_t length = lines.count(fields[next]);
+      if (length > fields.size()) lines.fail(fields[next], "a list is longer than its line", "export the file again");
+      next += 1 + static_cast<std::size_t>(length);
+    } else {
+      const Field& field = fields[next++];
+      if (column.target != PlyTarget::none) put(point, column.target, column.type, lines.number_or_nan(field));
+    }
+  }
+  if (next != fields.size()) lines.fail("the line holds other values than the header says", "export the file again");
+}
+
+void read_text(const InputFile& file, const PlyHeader& header, CloudBuilder& builder, const Progress& progress) {
+  LineReader lines(file, header.body_offset, header.body_line);
+  for (const PlyElement& element : header.elements) {
+    const bool is_vertex = &element == &header.elements[header.vertex];
+    const std::vector<Column> columns = columns_of(element);
+    FilePoint point;
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      if (i % points_between_checks == 0) progress.step(lines.position(), file.size());
+      next_row(lines, std::to_string(element.count) + " rows of " + element.name);
+      if (!is_vertex) continue;
+      read_text_row(lines, columns, point);
+      builder.add(point, [&] { return lines.place(); });
+    }
+  }
+  if (lines.next_with_text())
+    lines.fail("there are more rows than the header says", "the header is damaged; export the file again");
+}
+
+}  // namespace
+
+bool is_ply(std::string_view beginning) {
+  return beginning.starts_with("ply\n") || beginning.starts_with("ply\r") || beginning.starts_with("ply ");
+}
+
+ScanData read_ply(const std::filesystem::path& path, const ReadOptions& options, Progress& progress) {
+  const InputFile file(path);
+  const PlyHeader header = read_ply_header(file);
+  const PlyElement& vertex = header.elements[header.vertex];
+  CloudBuilder builder(ply_attributes(vertex), options);
+  builder.expect(vertex.count);
+  if (header.ascii)
+    read_text(file, header, builder, progress);
+  else
+    read_binary(file, header, builder, progress);
+  return builder.finished(path.stem().string(), file.name(), progress);
+}
+
+ScanFileSummary summarise_ply(const std::filesystem::path& path) {
+  const InputFile file(path);
+  const PlyHeader header = read_ply_header(file);
+  const PlyElement& vertex = header.elements[header.vertex];
+  ScanFileSummary summary;
+  summary.format = header.ascii                       ? "PLY ascii"
+                   : header.order == std::endian::big ? "PLY binary big endian"
+                                                      : "PLY binary little endian";
+  ScanSummary scan;
+  scan.name = path.stem().string();
+  scan.points = vertex.count;
+  scan.attributes = attribute_names(ply_attributes(vertex));
+  summary.scans.push_back(scan);
+  return summary;
+}
+
+}  // namespace adit::io

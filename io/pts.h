@@ -1,0 +1,20 @@
+#pragma once
+// PTS: a line with the number of points, then a line for each: x y z [intensity] [red green blue].
+
+#include <filesystem>
+#include <vector>
+
+#include "core/foundation/progress.h"
+#include "io/scan_formats.h"
+
+namespace adit::io {
+
+/// One scan for each count in the file (most have one). Intensities keep their scale. A count that disagrees with the
+/// lines below it is refused. Errors as read_scans.
+std::vector<ScanData> read_pts(const std::filesystem::path& file, const ReadOptions& options, Progress& progress);
+
+/// x y z intensity, and red green blue where the scan has colours; no variants. Normals are left out.
+void write_pts(const std::filesystem::path& file, const ScanData& scan, const WriteOptions& options,
+               Progress& progress);
+
+}  // namespace adit::io
