@@ -1,7 +1,7 @@
 # Installing and the .deb.
 include(GNUInstallDirs)
 install(TARGETS adit RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-if(ADIT_GUI)
+if(TARGET adit-gui)
   install(TARGETS adit-gui RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(FILES packaging/adit.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 endif()

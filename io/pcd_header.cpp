@@ -213,6 +213,8 @@ class HeaderParser {
   PcdHeader header_;
 };
 
+constexpr std::uint64_t most_padding_bytes = 65536;
+
 /// LZF packs 264 bytes into 3 at best.
 constexpr std::uint64_t most_lzf_ratio = 88;
 
@@ -230,17 +232,28 @@ void expect_compressed_body(const InputFile& file, const PcdHeader& header) {
                 file.at_byte(header.body_offset), "the file is damaged; export it again");
 }
 
+/// Old writers of PCL fill the file up to a page with zeros; anything else behind the points contradicts the header.
+void expect_nothing_behind(const InputFile& file, const PcdHeader& header) {
+  const std::uint64_t end = header.body_offset + header.points * header.point_bytes;
+  const std::uint64_t rest = file.size() - end;
+  if (rest < header.point_bytes) return;
+  bool padding = rest <= most_padding_bytes;
+  if (padding)
+    for (const std::byte b : file.read(end, static_cast<std::size_t>(rest), "the end"))
+      padding = padding && b == std::byte{0};
+  if (!padding)
+    throw Error("the file holds " + std::to_string(rest) + " bytes more than its header says (" +
+                    std::to_string(header.points) + " points of " + std::to_string(header.point_bytes) + " bytes)",
+                file.at_byte(end), damaged);
+}
+
 void expect_body(const InputFile& file, const PcdHeader& header) {
   if (header.encoding == PcdEncoding::compressed) return expect_compressed_body(file, header);
   // A line of text holds a letter and an end for each value at least; the last line may lack its end.
   const bool ascii = header.encoding == PcdEncoding::ascii;
   const std::uint64_t record = ascii ? 2 * header.values - 1 : header.point_bytes;
   file.expect_records(header.body_offset, header.points, record, "points");
-  const std::uint64_t rest = file.size() - header.body_offset - header.points * record;
-  if (!ascii && rest >= record)
-    throw Error("the file holds " + std::to_string(rest) + " bytes more than its header says (" +
-                    std::to_string(header.points) + " points of " + std::to_string(record) + " bytes)",
-                file.at_byte(header.body_offset), damaged);
+  if (!ascii) expect_nothing_behind(file, header);
 }
 
 }  // namespace

@@ -4,6 +4,13 @@
 
 namespace adit {
 
+Pose site_from_scan(const Results& results, std::size_t scan) {
+  Pose pose = results.registration.scans[scan].local_from_scan;
+  const Eigen::Vector3d offset = scan < results.import.scans.size() ? results.import.scans[scan].offset : Eigen::Vector3d::Zero();
+  pose.translation() += results.import.origin.position - pose.linear() * offset;
+  return pose;
+}
+
 Findings all_findings(const Results& results) {
   Findings all = results.import.findings;
   const auto add = [&](const Findings& more) { all.insert(all.end(), more.begin(), more.end()); };

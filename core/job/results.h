@@ -21,8 +21,17 @@ struct InputRecord {
   std::uint64_t points = 0;  ///< 0 for files that are not scans
 };
 
+/// A scan after import, in the order of the job.
+struct ImportedScan {
+  std::string name;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< file coordinates = stored point + offset
+  std::uint64_t points = 0;
+  std::uint64_t no_returns = 0;                      ///< pulses without an echo, left out
+};
+
 struct ImportResult {
   std::vector<InputRecord> inputs;
+  std::vector<ImportedScan> scans;
   ProjectOrigin origin;
   Findings findings;
 };
@@ -74,6 +83,9 @@ struct Results {
   std::vector<StepTime> timing;
   std::uint64_t peak_memory_bytes = 0;
 };
+
+/// site-from-scan of a placed scan, for the coordinates of its file.
+Pose site_from_scan(const Results& results, std::size_t scan);
 
 /// Every finding of every step, in order of the steps.
 Findings all_findings(const Results& results);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <tuple>
 
 #include "core/foundation/error.h"
 #include "core/foundation/parallel.h"
@@ -44,6 +45,7 @@ std::optional<TileRef> tile_reach(const PlacedTiles& scan, std::size_t index, st
 struct Entry {
   std::uint32_t cell;
   float deviation_m;
+  float place;  ///< within the thickness of the slice, 0 to 1
 };
 
 struct TileEntries {
@@ -74,7 +76,7 @@ struct Mapper {
     std::optional<double> hint;
     for (const auto& point : scan.points->read(ref.tile).points) {
       const double range = static_cast<double>(point.norm());
-      if (range < options.least_range_m || range > options.most_range_m) continue;
+      if (scan.scanner_at_origin && (range < options.least_range_m || range > options.most_range_m)) continue;
       const auto at = design.alignment().to_tunnel(scan.local_from_scan * point.cast<double>(), hint);
       if (!at) continue;
       hint = at->s_m;
@@ -88,39 +90,63 @@ struct Mapper {
         const auto row = std::min(static_cast<std::size_t>((at->s_m - map.from_m) / map.step_s_m), last_row - 1);
         const auto column = static_cast<std::size_t>(stretch_at(at->s_m).q_of(foot) / map.step_q_m);
         const std::size_t cell = (row - first_row) * map.columns + std::min(column, map.columns - 1);
-        result.entries.push_back({static_cast<std::uint32_t>(cell), static_cast<float>(foot.deviation_m)});
+        const double place = (at->s_m - map.from_m) / map.step_s_m - static_cast<double>(row);
+        result.entries.push_back(
+            {static_cast<std::uint32_t>(cell), static_cast<float>(foot.deviation_m), static_cast<float>(place)});
       }
     }
     return result;
   }
 };
 
-/// The outermost surface among the sorted deviations of a cell: the outermost band that holds enough of its points.
-MapCell surface_cell(const Entry* begin, const Entry* end, const ProfilingOptions& options) {
-  MapCell cell;
+/// The part of a cell's points (sorted by deviation) that is rock. The outermost band that holds enough of them is rock for
+/// certain: what lies behind it is stray. In front of it a step between two rounds is rock, too, but well inside the
+/// design line only what lies close to that band: the rest is equipment.
+std::vector<Entry> rock_points(const Entry* begin, const Entry* end, const ProfilingOptions& options) {
+  constexpr float well_inside_m = -0.15F;
   const auto count = static_cast<std::size_t>(end - begin);
-  const auto least = static_cast<std::size_t>(options.least_points);
-  if (count < least) return cell;
-  const std::size_t need = std::max(least, count / 10);
+  const std::size_t need = std::max(static_cast<std::size_t>(options.least_points), count / 10);
   const auto band = static_cast<float>(options.surface_band_m);
   for (const Entry* top = end - 1; top >= begin; --top) {
-    const Entry* first = std::lower_bound(begin, top + 1, top->deviation_m - band,
-                                          [](const Entry& e, float d) { return e.deviation_m < d; });
+    const float low = top->deviation_m - band;
+    const Entry* first =
+        std::lower_bound(begin, top + 1, low, [](const Entry& e, float d) { return e.deviation_m < d; });
     if (static_cast<std::size_t>(top + 1 - first) < need) continue;
-    std::vector<double> values;
-    for (const Entry* e = first; e <= top; ++e) values.push_back(static_cast<double>(e->deviation_m));
-    cell.deviation_m = static_cast<float>(median(values));
-    cell.spread_m = static_cast<float>(robust_sigma(values));
-    cell.count = static_cast<std::uint32_t>(values.size());
-    cell.kind = CellKind::measured;
-    return cell;
+    std::vector<Entry> rock;
+    for (const Entry* e = begin; e <= top; ++e)
+      if (e->deviation_m >= std::min(well_inside_m, low - band) || e >= first) rock.push_back(*e);
+    return rock;
   }
+  return {};
+}
+
+/// Mean over the thickness of the slice: every point stands for the stretch of chainage that is nearest to it, so that the
+/// many points on a step's face weigh no more than the little chainage they cover.
+MapCell surface_cell(const Entry* begin, const Entry* end, const ProfilingOptions& options) {
+  MapCell cell;
+  std::vector<Entry> rock = rock_points(begin, end, options);
+  if (rock.empty()) return cell;
+  std::sort(rock.begin(), rock.end(), [](const Entry& a, const Entry& b) {
+    return a.place != b.place ? a.place < b.place : a.deviation_m < b.deviation_m;
+  });
+  double sum = 0.0;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < rock.size(); ++i) {
+    const float from = i == 0 ? 0.0F : 0.5F * (rock[i - 1].place + rock[i].place);
+    const float to = i + 1 == rock.size() ? 1.0F : 0.5F * (rock[i].place + rock[i + 1].place);
+    values.push_back(static_cast<double>(rock[i].deviation_m));
+    sum += static_cast<double>(to - from) * values.back();
+  }
+  cell.deviation_m = static_cast<float>(sum);
+  cell.spread_m = static_cast<float>(robust_sigma(values));
+  cell.count = static_cast<std::uint32_t>(values.size());
+  cell.kind = CellKind::measured;
   return cell;
 }
 
 void fill_slab(DeviationMap& map, std::vector<Entry>& entries, std::size_t first_row, const ProfilingOptions& options) {
   tbb::parallel_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.cell != b.cell ? a.cell < b.cell : a.deviation_m < b.deviation_m;
+    return std::tie(a.cell, a.deviation_m, a.place) < std::tie(b.cell, b.deviation_m, b.place);
   });
   for (std::size_t begin = 0; begin < entries.size();) {
     std::size_t end = begin;

@@ -46,6 +46,7 @@ struct PlacedTiles {
   std::string name;
   std::shared_ptr<const TileSource> points;
   Pose local_from_scan = Pose::Identity();
+  bool scanner_at_origin = true;   ///< false: ranges are not limited
 };
 
 /// Streams every tile that reaches the stretch [from, to] into the map. The design is in the local frame.

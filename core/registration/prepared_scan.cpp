@@ -17,7 +17,10 @@ PreparedScan prepare_scan(const std::string& name, const TileSource& source, dou
                 "scan " + name, "check the units of the file (metres are needed) or lower registration.spacing_m");
   scan.tree = std::make_shared<const NearestNeighbours>(scan.points);
   Progress planes = progress.part(0.5, "");
-  scan.normals = surface_normals(scan.points, *scan.tree, Eigen::Vector3f::Zero(), planes);
+  Eigen::Vector3f inside = Eigen::Vector3f::Zero();
+  if (most_range_m > 1e8)  // where the scanner stood is unknown: the middle of a tunnel's points lies inside it
+    for (const auto& p : scan.points) inside += p / static_cast<float>(scan.points.size());
+  scan.normals = surface_normals(scan.points, *scan.tree, inside, planes);
   return scan;
 }
 

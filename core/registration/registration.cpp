@@ -284,7 +284,8 @@ void prepare_nodes(std::vector<Node>& nodes, const std::vector<ScanToPlace>& sca
   for (Node& node : nodes) {
     const ScanToPlace& scan = scans[node.scan];
     Progress part = progress.part(1.0 / static_cast<double>(nodes.size()), "preparing scan " + scan.name);
-    node.prepared = prepare_scan(scan.name, *scan.points, options.spacing_m, least_range_m, most_range_m, part);
+    node.prepared = prepare_scan(scan.name, *scan.points, options.spacing_m, scan.scanner_at_origin ? least_range_m : 0.0,
+                                 scan.scanner_at_origin ? most_range_m : 1e9, part);
   }
 }
 

@@ -48,6 +48,7 @@ struct ScanToPlace {
   std::string name;
   std::shared_ptr<const TileSource> points;
   std::optional<Pose> local_from_scan_guess;
+  bool scanner_at_origin = true;  ///< false: the file does not say where the scanner stood; ranges are not limited
 };
 
 /// Standard deviations in tunnel axes.

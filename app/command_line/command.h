@@ -1,0 +1,34 @@
+#pragma once
+// A command of adit: declares its arguments, then acts. One file each; main holds the table.
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+
+#include "core/foundation/progress.h"
+
+namespace adit::app {
+
+/// What every command understands.
+struct CommonOptions {
+  bool quiet = false;
+  bool json = false;
+  int threads = 0;  ///< 0: all cores
+};
+
+/// Exit codes.
+inline constexpr int exit_good = 0;
+inline constexpr int exit_needs_a_person = 1;
+inline constexpr int exit_bad_input = 2;
+inline constexpr int exit_our_fault = 3;
+inline constexpr int exit_cancelled = 130;
+
+using Action = std::function<int(const CommonOptions&, Progress&)>;
+
+/// Each declares its arguments on the sub-command and returns what to do after parsing.
+Action declare_demo(CLI::App& command);
+Action declare_run(CLI::App& command, const std::string& last_step);
+Action declare_info(CLI::App& command);
+Action declare_convert(CLI::App& command);
+
+}  // namespace adit::app

@@ -1,0 +1,176 @@
+// adit info FILE...: what a file holds.
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command_line/command.h"
+#include "app/command_line/summary.h"
+#include "app/run_job.h"
+#include "core/foundation/error.h"
+#include "io/control_csv.h"
+#include "io/landxml.h"
+#include "io/read_profile.h"
+#include "io/scan_formats.h"
+#include "io/targets_csv.h"
+#include "io/text_place.h"
+
+namespace adit::app {
+namespace {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+json scan_info(const fs::path& file, Progress& progress) {
+  const io::ScanFileSummary summary = io::summarise_scan_file(file, progress);
+  json out{{"file", file.string()}, {"format", summary.format}, {"scans", json::array()}};
+  for (const io::ScanSummary& scan : summary.scans) {
+    json one{{"name", scan.name}, {"points", scan.points}};
+    one["pose"] = nullptr;
+    if (scan.pose) {
+      one["pose"] = json::array();
+      for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c) one["pose"].push_back(scan.pose->matrix()(r, c));
+    }
+    one["min"] = scan.box.isEmpty() ? json(nullptr) : numbers(scan.box.min());
+    one["max"] = scan.box.isEmpty() ? json(nullptr) : numbers(scan.box.max());
+    one["attributes"] = scan.attributes;
+    out["scans"].push_back(one);
+  }
+  return out;
+}
+
+json findings_info(const Findings& findings) {
+  json list = json::array();
+  for (const Finding& finding : findings) list.push_back(finding.subject + ": " + finding.words);
+  return list;
+}
+
+json landxml_info(const fs::path& file) {
+  const io::LandXmlFile content = io::read_landxml(file);
+  json out{{"file", file.string()}, {"format", "LandXML"}, {"alignments", json::array()}};
+  for (const auto& alignment : content.alignments) {
+    json one{{"name", alignment.name}};
+    if (alignment.axis) {
+      const HorizontalAlignment& plan = alignment.axis->horizontal();
+      one["from"] = plan.from_m();
+      one["to"] = plan.to_m();
+      one["elements"] = plan.elements().size();
+      one["grade_points"] = alignment.axis->vertical().points().size();
+    }
+    if (alignment.refusal) one["refused"] = alignment.refusal->what();
+    if (alignment.grade_refusal) one["grade_refused"] = alignment.grade_refusal->what();
+    one["findings"] = findings_info(alignment.findings);
+    out["alignments"].push_back(one);
+  }
+  out["findings"] = findings_info(content.findings);
+  return out;
+}
+
+json profile_info(const fs::path& file) {
+  const Profile profile = io::read_profile(file);
+  const auto box = profile.box();
+  return {{"file", file.string()},
+          {"format", "profile"},
+          {"segments", profile.segments().size()},
+          {"area_m2", profile.area_m2()},
+          {"length_m", profile.length_m()},
+          {"width_m", box.sizes().x()},
+          {"height_m", box.sizes().y()}};
+}
+
+json job_info(const fs::path& file, Progress& progress) {
+  RunOptions options;
+  options.only_take_up = true;
+  const auto state = run_job(file, options, progress);
+  json out{{"file", file.string()}, {"format", "job"}, {"name", state->job.name}, {"scans", json::array()}, {"steps", json::object()}};
+  for (const JobScan& scan : state->job.scans) out["scans"].push_back(scan.name + " (" + scan.file + ")");
+  for (const Step& step : all_steps()) {
+    const bool fresh = std::any_of(state->results.timing.begin(), state->results.timing.end(),
+                                   [&](const StepTime& time) { return time.step == step.name; });
+    out["steps"][step.name] = !step.wanted(*state) ? "nothing to do" : fresh ? "up to date" : "to be run";
+  }
+  return out;
+}
+
+/// First line with text, in lower case, to tell tables apart.
+std::string table_header(const fs::path& file) {
+  io::LineReader lines(file);
+  if (!lines.next_with_text()) return {};
+  std::string header(lines.line());
+  std::transform(header.begin(), header.end(), header.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return header;
+}
+
+json table_info(const fs::path& file, Progress& progress) {
+  const std::string header = table_header(file);
+  const auto starts = [&](const char* word) { return header.find(word) != std::string::npos; };
+  if (starts("scan") && starts("id"))
+    return {{"file", file.string()}, {"format", "targets"}, {"targets", io::read_targets_csv(file).size()}};
+  if (starts("id") && starts("east"))
+    return {{"file", file.string()}, {"format", "control"}, {"points", io::read_control_csv(file).size()}};
+  if (starts("offset") && starts("height")) return profile_info(file);
+  return scan_info(file, progress);
+}
+
+json info(const fs::path& file, Progress& progress) {
+  if (!fs::exists(file)) throw Error("there is no such file", file.string(), "check the path");
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (fs::is_directory(file) || ending == ".json") return job_info(file, progress);
+  if (ending == ".xml" || ending == ".landxml") return landxml_info(file);
+  if (ending == ".dxf") return profile_info(file);
+  if (ending == ".csv" || ending == ".txt") return table_info(file, progress);
+  return scan_info(file, progress);
+}
+
+std::string plain(const json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_null()) return "-";
+  if (!value.is_array()) return value.dump();
+  std::string text;
+  for (const auto& one : value) text += (text.empty() ? "" : " ") + plain(one);
+  return text;
+}
+
+/// Keys and values, indented; lists of objects one below the other.
+void print_plain(const json& object, int indent) {
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_object()) {
+      std::printf("%*s%s:\n", indent, "", key.c_str());
+      print_plain(value, indent + 2);
+    } else if (value.is_array() && !value.empty() && value.front().is_object()) {
+      for (const auto& one : value) {
+        std::printf("%*s%s\n", indent, "", key.substr(0, key.size() - 1).c_str());
+        print_plain(one, indent + 2);
+      }
+    } else if (value.is_array() && !value.empty() && value.front().is_string() && key == "findings") {
+      for (const auto& one : value) std::printf("%*s- %s\n", indent, "", one.get<std::string>().c_str());
+    } else if (!(value.is_array() && value.empty())) {
+      std::printf("%*s%s: %s\n", indent, "", key.c_str(), plain(value).c_str());
+    }
+  }
+}
+
+}  // namespace
+
+Action declare_info(CLI::App& command) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  command.add_option("FILE", *files, "scans, alignments, profiles, control files, jobs")->required();
+  return [files](const CommonOptions& common, Progress& progress) {
+    for (const std::string& file : *files) {
+      const json content = info(file, progress);
+      if (common.json) {
+        std::printf("%s\n", content.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
+      } else {
+        print_plain(content, 0);
+      }
+    }
+    return exit_good;
+  };
+}
+
+}  // namespace adit::app

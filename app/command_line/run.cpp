@@ -1,0 +1,34 @@
+// adit run, and one command for each step: all steps up to it.
+
+#include <cstdio>
+#include <memory>
+
+#include "app/command_line/command.h"
+#include "app/command_line/summary.h"
+#include "app/run_job.h"
+#include "io/results_json.h"
+#include "render/gl_context.h"
+
+namespace adit::app {
+
+Action declare_run(CLI::App& command, const std::string& last_step) {
+  struct Arguments {
+    std::string job;
+    std::string out;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  command.add_option("JOB", arguments->job, "job.json or its folder")->required();
+  command.add_option("--out", arguments->out, "folder for everything derived (out beside job.json)");
+  return [arguments, last_step](const CommonOptions& common, Progress& progress) {
+    RunOptions options;
+    options.out = arguments->out;
+    options.last_step = last_step;
+    options.context.make_gl_context = [] { return render::make_osmesa_context(); };
+    const auto state = run_job(arguments->job, options, progress);
+    const std::string text = common.json ? io::results_text(state->results) : common.quiet ? std::string() : summary_text(*state);
+    std::fputs(text.c_str(), stdout);
+    return needs_a_person(state->results) ? exit_needs_a_person : exit_good;
+  };
+}
+
+}  // namespace adit::app

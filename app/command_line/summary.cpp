@@ -1,0 +1,86 @@
+#include "app/command_line/summary.h"
+
+#include <cstdarg>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/foundation/angle.h"
+
+namespace adit::app {
+namespace {
+
+[[gnu::format(printf, 2, 3)]] void add(std::string& text, const char* format, ...) {
+  char line[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+}
+
+void add_registration(std::string& text, const Results& results) {
+  const RegistrationResult& registration = results.registration;
+  if (registration.scans.empty()) return;
+  add(text, "\nRegistration: %s\n", registration.accepted ? "accepted" : "NOT accepted");
+  add(text, "  %-12s %-20s %14s %14s %10s   sigma along/across/up\n", "scan", "placed by", "east", "north", "elevation");
+  for (std::size_t i = 0; i < registration.scans.size(); ++i) {
+    const PlacedScan& scan = registration.scans[i];
+    const Eigen::Vector3d p = site_from_scan(results, i).translation();
+    add(text, "  %-12s %-20s %14.3f %14.3f %10.3f   %.1f / %.1f / %.1f mm\n", scan.name.c_str(), scan.placed_by.c_str(), p.x(), p.y(),
+        p.z(), 1e3 * scan.sigma.along_m, 1e3 * scan.sigma.across_m, 1e3 * scan.sigma.up_m);
+  }
+  for (const PairResult& pair : registration.pairs)
+    add(text, "  pair %s - %s: overlap %.0f %%, median residual %.1f mm, median distance %.1f mm%s\n", pair.source.c_str(),
+        pair.target.c_str(), 100.0 * pair.overlap, 1e3 * pair.median_m, 1e3 * pair.median_distance_m, pair.used ? "" : " (not used)");
+  if (!registration.control.empty())
+    add(text, "  control: %zu targets, rms %.1f mm per axis\n", registration.control.size(), 1e3 * registration.control_rms_m);
+}
+
+void add_volumes(std::string& text, const VolumeResult& result) {
+  for (const Volume& volume : result.lines) {
+    add(text, "\nVolumes against \"%s\", chainage %.2f to %.2f (coverage %.1f %%, +- is two sigma)\n", volume.line.c_str(), volume.from_m,
+        volume.to_m, 100.0 * volume.coverage);
+    add(text, "  design %.2f m3   excavated %.2f +- %.2f   overbreak %.2f +- %.2f   underbreak %.2f +- %.2f\n", volume.slices.design_m3,
+        volume.slices.excavated_m3, 2.0 * volume.sigma_excavated_m3, volume.slices.overbreak_m3, 2.0 * volume.sigma_overbreak_m3,
+        volume.slices.underbreak_m3, 2.0 * volume.sigma_underbreak_m3);
+  }
+}
+
+void add_truth(std::string& text, const TruthComparison& truth) {
+  add(text, "\nAgainst the exact truth of this simulated job\n");
+  add(text, "  worst station %.2f mm and %.4f degrees; excavated %+.3f %%; overbreak %+.3f %%; underbreak %+.3f m3\n",
+      1e3 * truth.worst_position_error_m, deg_from_rad(truth.worst_rotation_error_rad), 100.0 * truth.excavated_error,
+      100.0 * truth.overbreak_error, truth.underbreak_error_m3);
+}
+
+}  // namespace
+
+std::string summary_text(const JobState& state) {
+  const Results& results = state.results;
+  std::string text = state.job.name + "\n";
+  for (std::size_t i = 0; i < results.import.scans.size(); ++i)
+    add(text, "  %-12s %12llu points\n", results.import.scans[i].name.c_str(),
+        static_cast<unsigned long long>(results.import.scans[i].points));
+  add_registration(text, results);
+  if (results.surface)
+    add(text, "\nSurface: %zu triangles, %zu edges, mean edge %.3f m, %zu open loops (%.1f m of holes), area %.1f m2\n",
+        results.surface->mesh.triangles, results.surface->mesh.edges, results.surface->mesh.mean_edge_m,
+        results.surface->mesh.boundary_loops, results.surface->mesh.holes_m, results.surface->mesh.area_m2);
+  if (results.profile) add(text, "\nSections: %zu\n", results.profile->sections.size());
+  if (results.volume) add_volumes(text, *results.volume);
+  if (results.truth) add_truth(text, *results.truth);
+  for (const Finding& finding : all_findings(results)) {
+    const char* sign = finding.severity == Severity::decision ? "TO DECIDE" : finding.severity == Severity::warning ? "warning" : "note";
+    if (finding.severity != Severity::note)
+      text += "\n" + std::string(sign) + ": " + finding.subject + ": " + finding.words + (finding.mend.empty() ? "" : "; " + finding.mend);
+  }
+  text += "\n";
+  for (const StepTime& time : results.timing)
+    add(text, "%s%s %.1f s", &time == &results.timing.front() ? "\nTime: " : ", ", time.step.c_str(), time.seconds);
+  add(text, "; peak memory %.0f MiB\n", static_cast<double>(results.peak_memory_bytes) / 1048576.0);
+  if (std::filesystem::exists(state.out / "report.pdf") && !results.timing.empty() && results.timing.back().step == "report")
+    text += "Report: " + (state.out / "report.pdf").string() + "\n";
+  return text;
+}
+
+}  // namespace adit::app

@@ -1,0 +1,55 @@
+#pragma once
+// All that a run holds in memory: the job, what its files say, and what the steps have made so far.
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/design/design_tunnel.h"
+#include "core/georeference/control.h"
+#include "core/job/job.h"
+#include "core/job/results.h"
+#include "core/profiling/deviation_map.h"
+#include "core/simulation/truth.h"
+#include "io/mesh_ply.h"
+#include "io/point_store.h"
+
+namespace adit::app {
+
+struct JobState {
+  Job job;
+  std::filesystem::path folder;                      ///< of job.json
+  std::filesystem::path out;                         ///< of everything derived
+
+  // What the input files say (site coordinates).
+  std::map<std::string, std::string> input_sha256;   ///< by the name in job.json
+  std::optional<Alignment> alignment;
+  std::vector<ProfileFrom> profiles;
+  std::vector<ControlPoint> control;
+  std::vector<TargetObservation> targets;
+  std::optional<Truth> truth;                        ///< of a simulated job
+  Findings input_findings;
+
+  // What the steps made.
+  Results results;
+  std::vector<std::shared_ptr<io::PointStore>> stores;  ///< in the order of the job's scans
+  std::optional<DesignTunnel> design;                ///< local frame
+  std::optional<DeviationMap> map;
+  std::optional<io::MeshFile> mesh;                  ///< local frame
+
+  /// Where the steps' keys stand: by name of the step.
+  std::map<std::string, std::string> keys;
+
+  bool has_design() const { return alignment.has_value() && !profiles.empty(); }
+  /// Stretch to profile: the job's, or the whole axis.
+  JobChainage stretch() const;
+};
+
+/// Reads job.json and the small files it names, and hashes all of them. Throws Error for anything broken, before any
+/// long work begins: a chainage outside the axis, a profile that crosses itself, a target without a scan.
+JobState open_job(const std::filesystem::path& job_file, const std::filesystem::path& out, Progress& progress);
+
+}  // namespace adit::app

@@ -1,0 +1,132 @@
+#include "app/run_job.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/truth_comparison.h"
+#include "app/version.h"
+#include "core/foundation/error.h"
+#include "io/atomic_file.h"
+#include "io/csv_tables.h"
+#include "io/results_json.h"
+#include "io/sha256.h"
+#include "io/text_file.h"
+
+namespace adit::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// Holds out/.lock while a run writes there.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& folder) {
+    const fs::path file = folder / ".lock";
+    descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+    if (descriptor_ < 0) throw Error("the folder cannot be written", folder.string(), "check its permissions and the free space");
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    ::close(descriptor_);
+    throw Error("another run is writing to this folder", folder.string(), "wait for it to end, or choose another with --out");
+  }
+  ~FolderLock() { ::close(descriptor_); }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+fs::path key_file(const JobState& state, const Step& step) { return state.out / "steps" / (step.name + ".key"); }
+
+bool taken_up(JobState& state, const Step& step, const std::string& key) {
+  const fs::path file = key_file(state, step);
+  if (!fs::exists(file)) return false;
+  try {
+    if (io::read_text_file(file) != key) return false;
+    step.take_up(state);
+    return true;
+  } catch (const Error&) {
+    return false;  // what an earlier run left is not whole: the step simply runs again
+  }
+}
+
+void run_step(JobState& state, const Step& step, const std::string& key, const StepContext& context, Progress& progress) {
+  std::error_code ignored;
+  fs::remove(key_file(state, step), ignored);  // until the step is whole again
+  try {
+    step.run(state, context, progress);
+  } catch (const Error& error) {
+    throw error.where().empty() ? error.at(step.name) : error;
+  }
+  io::write_file_atomically(key_file(state, step), key);
+}
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+void write_results(const JobState& state) {
+  io::write_file_atomically(state.out / "results.json", io::results_text(state.results));
+  io::write_file_atomically(state.out / "registration.csv", io::registration_csv(state.results));
+  if (state.results.profile) io::write_file_atomically(state.out / "sections.csv", io::sections_csv(state.results));
+  if (state.results.volume) io::write_file_atomically(state.out / "volumes.csv", io::volumes_csv(state.results));
+}
+
+void create_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw Error("the folder cannot be made: " + error.message(), folder.string(), "choose another with --out");
+}
+
+/// One step, or what an earlier run left of it. False when it is stale and nothing may run.
+bool do_step(JobState& state, const Step& step, const RunOptions& options, Progress& progress) {
+  if (step.name == "report" && state.truth) state.results.truth = compare_with_truth(state.results, *state.truth);
+  const std::string key = io::sha256_of_bytes(step.depends_on(state));
+  state.keys[step.name] = key;
+  const auto start = Clock::now();
+  const bool fresh = taken_up(state, step, key);
+  if (!fresh && options.only_take_up) return false;
+  if (!fresh) run_step(state, step, key, options.context, progress);
+  state.results.timing.push_back({step.name, std::chrono::duration<double>(Clock::now() - start).count(), fresh});
+  return true;
+}
+
+}  // namespace
+
+std::shared_ptr<JobState> run_job(const fs::path& job_file, const RunOptions& options, Progress& progress) {
+  Progress opening = progress.part(0.02, "reading the job");
+  auto state = std::make_shared<JobState>(open_job(job_file, options.out, opening));
+  state->results.version = version;
+  std::optional<FolderLock> lock;
+  if (!options.only_take_up) {
+    create_folder(state->out / "steps");
+    lock.emplace(state->out);
+  }
+  const std::vector<Step> steps = all_steps();
+  double total = 0.0;
+  for (const Step& step : steps) total += step.wanted(*state) ? step.share : 0.0;
+  for (const Step& step : steps) {
+    if (step.wanted(*state)) {
+      Progress part = progress.part(0.97 * step.share / total, step.message);
+      if (!do_step(*state, step, options, part)) break;
+    } else if (step.name == options.last_step) {
+      throw Error("the job has no alignment and profile, which \"" + step.name + "\" needs", job_file.string(),
+                  "name both files in job.json");
+    }
+    if (step.name == options.last_step) break;
+  }
+  if (state->truth && !state->results.truth) state->results.truth = compare_with_truth(state->results, *state->truth);
+  state->results.peak_memory_bytes = peak_memory_bytes();
+  if (!options.only_take_up) write_results(*state);
+  return state;
+}
+
+}  // namespace adit::app

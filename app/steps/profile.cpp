@@ -1,0 +1,91 @@
+// The deviation map and the sections at every interval.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/placed_tiles.h"
+#include "app/step.h"
+#include "core/foundation/parallel.h"
+#include "io/atomic_file.h"
+#include "io/deviation_map_file.h"
+#include "io/step_json.h"
+#include "io/text_file.h"
+
+namespace adit::app {
+namespace {
+
+bool wanted(const JobState& state) { return state.has_design(); }
+
+std::string depends_on(const JobState& state) {
+  std::string text = "profile 1|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
+  for (const JobProfile& profile : state.job.profiles)
+    text += "|" + state.input_sha256.at(profile.file) + profile.layer + short_number(profile.from_m);
+  for (const DesignLine& line : state.job.lines) text += "|" + line.name + short_number(line.offset_m);
+  const JobChainage stretch = state.stretch();
+  text += "|" + short_number(stretch.from_m) + "|" + short_number(stretch.to_m) + "|" + short_number(stretch.interval_m);
+  return text + "|" + options_text(state.job.options.profiling);
+}
+
+void cut_sections(JobState& state, ProfileResult& result) {
+  const JobChainage stretch = state.stretch();
+  const auto chainages = section_chainages(stretch.from_m, stretch.to_m, stretch.interval_m);
+  result.sections.resize(chainages.size());
+  parallel_for_each_index(
+      chainages.size(),
+      [&](std::size_t i) {
+        result.sections[i] = cut_section(*state.map, *state.design, chainages[i], state.job.options.profiling);
+        result.sections[i].axis_site = state.results.import.origin.to_site(result.sections[i].axis_site);
+      },
+      1);
+}
+
+void report_weak_coverage(ProfileResult& result) {
+  std::size_t weak = 0;
+  double worst = 1.0, worst_chainage = 0.0;
+  for (const Section& section : result.sections) {
+    const double coverage = section.lines.front().coverage;
+    if (coverage < 0.8) ++weak;
+    if (coverage < worst) {
+      worst = coverage;
+      worst_chainage = section.chainage_m;
+    }
+  }
+  if (weak == 0) return;
+  char words[160];
+  std::snprintf(words, sizeof words, "%zu of %zu sections were seen to less than 80 %%; the least is %.0f %% at chainage %.2f", weak,
+                result.sections.size(), 100.0 * worst, worst_chainage);
+  result.findings.push_back({Severity::warning, "sections", words, "add a scan there"});
+}
+
+void run(JobState& state, const StepContext&, Progress& progress) {
+  const JobChainage stretch = state.stretch();
+  Progress mapping = progress.part(0.9, "mapping deviations");
+  MapResult mapped = map_deviations(placed_tiles(state), *state.design, stretch.from_m, stretch.to_m,
+                                    state.job.options.profiling, mapping);
+  state.map = std::move(mapped.map);
+  ProfileResult result;
+  result.points_used = mapped.points_used;
+  result.points_inside = mapped.points_inside;
+  result.points_outside = mapped.points_outside;
+  result.findings = std::move(mapped.findings);
+  Progress cutting = progress.part(0.1, "cutting sections");
+  cut_sections(state, result);
+  report_weak_coverage(result);
+  state.results.profile = std::move(result);
+  io::write_deviation_map(state.out / "steps" / "map.bin", *state.map);
+  io::write_file_atomically(step_file(state, "profile"), io::step_text(*state.results.profile));
+}
+
+void take_up(JobState& state) {
+  ProfileResult result;
+  io::read_step_text(io::read_text_file(step_file(state, "profile")), result);
+  state.map = io::read_deviation_map(state.out / "steps" / "map.bin");
+  cut_sections(state, result);
+  state.results.profile = std::move(result);
+}
+
+}  // namespace
+
+Step profile_step() { return {"profile", "profiling", 0.12, wanted, depends_on, run, take_up}; }
+
+}  // namespace adit::app

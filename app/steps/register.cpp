@@ -1,0 +1,86 @@
+// Poses of all scans: pairs, control, one adjustment.
+
+#include "app/step.h"
+#include "io/atomic_file.h"
+#include "io/step_json.h"
+#include "io/text_file.h"
+
+namespace adit::app {
+namespace {
+
+bool wanted(const JobState&) { return true; }
+
+std::string depends_on(const JobState& state) {
+  std::string text = "register 1|" + state.keys.at("import");
+  for (const JobScan& scan : state.job.scans) {
+    if (!scan.position) continue;
+    for (const double value : {scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,
+                               scan.angles.pitch_rad, scan.angles.roll_rad})
+      text += "," + short_number(value);
+    text += "|" + scan.name;
+  }
+  for (const std::string* file : {&state.job.control, &state.job.targets, &state.job.alignment})
+    if (!file->empty()) text += "|" + state.input_sha256.at(*file);
+  return text + "|" + state.job.alignment_name + "|" + options_text(state.job.options.registration);
+}
+
+/// site-from-file of a scan before registration: the job's word, the file's own, or coordinates that are the site's.
+std::optional<Pose> site_from_file_guess(const JobScan& scan, const io::PointStore& store) {
+  if (scan.position) return make_pose(*scan.position, scan.angles);
+  if (store.file_pose()) return store.file_pose();
+  if (!store.offset().isZero()) return Pose::Identity();
+  return std::nullopt;
+}
+
+ScanToPlace scan_to_place(const JobState& state, std::size_t index) {
+  const auto& store = state.stores[index];
+  ScanToPlace scan;
+  scan.name = state.job.scans[index].name;
+  scan.points = store;
+  scan.scanner_at_origin = store->offset().isZero();
+  if (auto guess = site_from_file_guess(state.job.scans[index], *store)) {
+    guess->translation() += guess->linear() * store->offset() - state.results.import.origin.position;
+    scan.local_from_scan_guess = guess;
+  }
+  return scan;
+}
+
+RegistrationContext context_of(const JobState& state) {
+  RegistrationContext context;
+  const ProjectOrigin& origin = state.results.import.origin;
+  for (ControlPoint point : state.control) {
+    point.position = origin.to_local(point.position);
+    context.control.push_back(point);
+  }
+  context.targets = state.targets;
+  for (std::size_t i = 0; i < state.stores.size(); ++i)
+    for (auto& target : context.targets)
+      if (target.scan == state.job.scans[i].name) target.position -= state.stores[i]->offset();
+  if (state.alignment) {
+    const Alignment axis = state.alignment->relative_to(origin.position);
+    context.axis_direction = [axis](const Eigen::Vector3d& where) {
+      const auto foot = axis.to_tunnel(where);
+      const double chainage = foot ? foot->s_m : axis.from_m();
+      const Eigen::Vector2d tangent = axis.horizontal().at(chainage).tangent();
+      return Eigen::Vector3d(tangent.x(), tangent.y(), axis.vertical().at(chainage).grade).normalized();
+    };
+  }
+  return context;
+}
+
+void run(JobState& state, const StepContext&, Progress& progress) {
+  std::vector<ScanToPlace> scans;
+  for (std::size_t i = 0; i < state.stores.size(); ++i) scans.push_back(scan_to_place(state, i));
+  state.results.registration = register_scans(scans, context_of(state), state.job.options.registration, progress);
+  io::write_file_atomically(step_file(state, "register"), io::step_text(state.results.registration));
+}
+
+void take_up(JobState& state) {
+  io::read_step_text(io::read_text_file(step_file(state, "register")), state.results.registration);
+}
+
+}  // namespace
+
+Step register_step() { return {"register", "registering the scans", 0.35, wanted, depends_on, run, take_up}; }
+
+}  // namespace adit::app

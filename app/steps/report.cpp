@@ -1,0 +1,93 @@
+// report.pdf and its pictures.
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+
+#include "app/step.h"
+#include "core/foundation/error.h"
+#include "io/atomic_file.h"
+#include "render/report.h"
+
+namespace adit::app {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t overview_points = 120000;  // a scan
+
+bool wanted(const JobState&) { return true; }
+
+std::string depends_on(const JobState& state) {
+  std::string text = "report 1|" + state.results.version + "|" + state.job.name + "|" + state.job.client + "|" + state.job.surveyor;
+  for (const auto& [step, key] : state.keys) text += "|" + step + key;
+  const auto truth = state.input_sha256.find("truth.json");
+  return text + (truth == state.input_sha256.end() ? "" : "|" + truth->second);
+}
+
+/// Today, or the day of SOURCE_DATE_EPOCH for reports that must come out the same.
+std::string report_date() {
+  std::time_t now = std::time(nullptr);
+  if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH")) now = static_cast<std::time_t>(std::strtoll(fixed, nullptr, 10));
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &utc);
+  return text;
+}
+
+render::OverviewCloud overview(const JobState& state, std::size_t scan) {
+  render::OverviewCloud cloud;
+  cloud.name = state.job.scans[scan].name;
+  const io::PointStore& store = *state.stores[scan];
+  const double share = std::min(1.0, static_cast<double>(overview_points) / static_cast<double>(std::max<std::uint64_t>(store.points(), 1)));
+  const Pose& pose = state.results.registration.scans[scan].local_from_scan;
+  for (std::size_t tile = 0; tile < store.tile_count(); ++tile) {
+    const auto prefix = static_cast<std::size_t>(share * static_cast<double>(store.point_count(tile)));
+    for (const auto& p : store.read(tile, prefix).points)
+      if (!store.offset().isZero() || static_cast<double>(p.norm()) <= state.job.options.profiling.most_range_m)
+        cloud.points.push_back((pose * p.cast<double>()).cast<float>());
+  }
+  return cloud;
+}
+
+render::ReportContent content_of(const JobState& state) {
+  render::ReportContent content;
+  content.job = &state.job;
+  content.results = &state.results;
+  if (state.design) content.design = &*state.design;
+  if (state.map) content.map = &*state.map;
+  if (state.mesh) {
+    content.mesh = &state.mesh->mesh;
+    content.mesh_deviations_m = state.mesh->deviation_m;
+  }
+  for (std::size_t i = 0; i < state.stores.size(); ++i)
+    if (state.results.registration.scans[i].placed) content.clouds.push_back(overview(state, i));
+  for (ControlPoint point : state.control) {
+    point.position = state.results.import.origin.to_local(point.position);
+    content.control.push_back(point);
+  }
+  content.date = report_date();
+  return content;
+}
+
+void run(JobState& state, const StepContext& context, Progress& progress) {
+  if (!context.make_gl_context) throw Error("this program has no way to draw 3D pictures", "report", "use adit report");
+  const auto gl = context.make_gl_context();
+  const render::ReportFiles files = render::draw_report(content_of(state), *gl, progress);
+  fs::create_directories(state.out / "report");
+  for (const auto& picture : files.pictures)
+    io::write_file_atomically(picture.name == "map.png" ? state.out / picture.name : state.out / "report" / picture.name, picture.png);
+  io::write_file_atomically(state.out / "report.pdf", files.pdf);
+  io::write_file_atomically(step_file(state, "report"), "{}\n");
+}
+
+void take_up(JobState& state) {
+  if (!fs::is_regular_file(state.out / "report.pdf") || !fs::is_regular_file(step_file(state, "report")))
+    throw Error("the report is not there", (state.out / "report.pdf").string(), "run the report step");
+}
+
+}  // namespace
+
+Step report_step() { return {"report", "drawing the report", 0.12, wanted, depends_on, run, take_up}; }
+
+}  // namespace adit::app

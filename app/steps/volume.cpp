@@ -1,0 +1,78 @@
+// Volumes of the stretch and of every round, against every line.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/step.h"
+#include "io/atomic_file.h"
+#include "io/step_json.h"
+#include "io/text_file.h"
+
+namespace adit::app {
+namespace {
+
+bool wanted(const JobState& state) { return state.has_design(); }
+
+std::string depends_on(const JobState& state) {
+  std::string text = "volume 1|" + state.keys.at("profile");
+  for (const JobRound& round : state.job.rounds)
+    text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) + "," +
+            short_number(round.drilled_m);
+  return text;
+}
+
+void add_round(JobState& state, const JobRound& round, VolumeResult& result, Progress& progress) {
+  const DeviationMap& map = *state.map;
+  const double from = std::max(round.from_m, map.from_m);
+  const double to = std::min(round.to_m, map.to_m);
+  const std::string subject = "round " + std::to_string(round.number);
+  if (to - from < 0.01) {
+    result.findings.push_back({Severity::warning, subject, "lies outside the profiled chainage and has no volumes", "extend \"chainage\""});
+    return;
+  }
+  if (to - from < round.to_m - round.from_m - 1e-6) {
+    char words[120];
+    std::snprintf(words, sizeof words, "is profiled from %.3f to %.3f only, not over its whole length", from, to);
+    result.findings.push_back({Severity::warning, subject, words, "extend \"chainage\""});
+  }
+  RoundVolume volume;
+  volume.number = round.number;
+  volume.drilled_m = round.drilled_m;
+  volume.volume = compute_volume(map, *state.design, state.job.lines.front(), from, to, state.stretch().interval_m,
+                                 state.results.registration.scans, state.job.options.profiling, progress);
+  result.rounds.push_back(std::move(volume));
+}
+
+void run(JobState& state, const StepContext&, Progress& progress) {
+  VolumeResult result;
+  const DeviationMap& map = *state.map;
+  const double share = 1.0 / static_cast<double>(state.job.lines.size() + state.job.rounds.size());
+  for (const DesignLine& line : state.job.lines) {
+    Progress part = progress.part(share, "volumes against " + line.name);
+    result.lines.push_back(compute_volume(map, *state.design, line, map.from_m, map.to_m, state.stretch().interval_m,
+                                          state.results.registration.scans, state.job.options.profiling, part));
+    const Volume& volume = result.lines.back();
+    if (std::abs(volume.closure_m3) > 1e-3)
+      result.findings.push_back({Severity::decision, "volume " + line.name,
+                                 "excavated less design differs from over less under by " + short_number(volume.closure_m3) + " m3",
+                                 "report this as a fault of Adit"});
+  }
+  for (const JobRound& round : state.job.rounds) {
+    Progress part = progress.part(share, "round " + std::to_string(round.number));
+    add_round(state, round, result, part);
+  }
+  state.results.volume = std::move(result);
+  io::write_file_atomically(step_file(state, "volume"), io::step_text(*state.results.volume));
+}
+
+void take_up(JobState& state) {
+  VolumeResult result;
+  io::read_step_text(io::read_text_file(step_file(state, "volume")), result);
+  state.results.volume = std::move(result);
+}
+
+}  // namespace
+
+Step volume_step() { return {"volume", "computing volumes", 0.06, wanted, depends_on, run, take_up}; }
+
+}  // namespace adit::app

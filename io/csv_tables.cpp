@@ -1,0 +1,89 @@
+#include "io/csv_tables.h"
+
+#include <cstdio>
+
+#include "core/foundation/angle.h"
+
+namespace adit::io {
+namespace {
+
+std::string fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+/// A name in quotes where it needs them.
+std::string word(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+void add_volume_row(std::string& csv, const std::string& what, const Volume& volume, const char* method,
+                    const VolumeAmounts& amounts, bool has_sigma) {
+  csv += what + "," + word(volume.line) + "," + fixed(volume.line_offset_m, 4) + "," + fixed(volume.from_m, 3) + "," +
+         fixed(volume.to_m, 3) + "," + method + "," + fixed(amounts.design_m3, 4) + "," + fixed(amounts.excavated_m3, 4) + "," +
+         fixed(amounts.overbreak_m3, 4) + "," + fixed(amounts.underbreak_m3, 4) + ",";
+  csv += has_sigma ? fixed(volume.sigma_excavated_m3, 4) + "," + fixed(volume.sigma_overbreak_m3, 4) + "," +
+                         fixed(volume.sigma_underbreak_m3, 4)
+                   : std::string(",,");
+  csv += "," + fixed(volume.coverage, 4) + "," + fixed(volume.interpolated_m2, 3) + "," + fixed(volume.unseen_m2, 3) + "\n";
+}
+
+void add_volume(std::string& csv, const std::string& what, const Volume& volume) {
+  add_volume_row(csv, what, volume, "slices", volume.slices, true);
+  add_volume_row(csv, what, volume, "average_end_area", volume.average_end_area, false);
+  add_volume_row(csv, what, volume, "prismoidal", volume.prismoidal, false);
+}
+
+}  // namespace
+
+std::string sections_csv(const Results& results) {
+  std::string csv =
+      "chainage_m,station_m,axis_east_m,axis_north_m,axis_elevation_m,line,line_offset_m,design_area_m2,area_m2,overbreak_m2,"
+      "underbreak_m2,max_overbreak_m,max_overbreak_p_m,max_underbreak_m,max_underbreak_p_m,coverage,interpolated\n";
+  if (!results.profile) return csv;
+  for (const Section& section : results.profile->sections)
+    for (const SectionAreas& a : section.lines)
+      csv += fixed(section.chainage_m, 3) + "," + fixed(section.station_m, 3) + "," + fixed(section.axis_site.x(), 4) + "," +
+             fixed(section.axis_site.y(), 4) + "," + fixed(section.axis_site.z(), 4) + "," + word(a.line) + "," +
+             fixed(a.line_offset_m, 4) + "," + fixed(a.design_area_m2, 4) + "," + fixed(a.area_m2, 4) + "," +
+             fixed(a.overbreak_m2, 4) + "," + fixed(a.underbreak_m2, 4) + "," + fixed(a.max_overbreak_m, 4) + "," +
+             fixed(a.max_overbreak_p_m, 3) + "," + fixed(a.max_underbreak_m, 4) + "," + fixed(a.max_underbreak_p_m, 3) + "," +
+             fixed(a.coverage, 4) + "," + fixed(a.interpolated, 4) + "\n";
+  return csv;
+}
+
+std::string volumes_csv(const Results& results) {
+  std::string csv =
+      "stretch,line,line_offset_m,from_m,to_m,method,design_m3,excavated_m3,overbreak_m3,underbreak_m3,sigma_excavated_m3,"
+      "sigma_overbreak_m3,sigma_underbreak_m3,coverage,interpolated_m2,unseen_m2\n";
+  if (!results.volume) return csv;
+  for (const Volume& volume : results.volume->lines) add_volume(csv, "total", volume);
+  for (const RoundVolume& round : results.volume->rounds) add_volume(csv, "round " + std::to_string(round.number), round.volume);
+  return csv;
+}
+
+std::string registration_csv(const Results& results) {
+  std::string csv =
+      "scan,placed_by,east_m,north_m,elevation_m,yaw_deg,pitch_deg,roll_deg,sigma_along_mm,sigma_across_mm,sigma_up_mm,"
+      "sigma_roll_mdeg,sigma_pitch_mdeg,sigma_yaw_mdeg,undetermined\n";
+  for (std::size_t i = 0; i < results.registration.scans.size(); ++i) {
+    const PlacedScan& scan = results.registration.scans[i];
+    const Pose pose = site_from_scan(results, i);
+    const YawPitchRoll turn = yaw_pitch_roll(pose);
+    std::string weak;
+    for (const auto& direction : scan.undetermined) weak += (weak.empty() ? "" : " ") + direction;
+    csv += word(scan.name) + "," + scan.placed_by + "," + fixed(pose.translation().x(), 4) + "," + fixed(pose.translation().y(), 4) +
+           "," + fixed(pose.translation().z(), 4) + "," + fixed(deg_from_rad(turn.yaw_rad), 5) + "," +
+           fixed(deg_from_rad(turn.pitch_rad), 5) + "," + fixed(deg_from_rad(turn.roll_rad), 5) + "," +
+           fixed(1e3 * scan.sigma.along_m, 2) + "," + fixed(1e3 * scan.sigma.across_m, 2) + "," + fixed(1e3 * scan.sigma.up_m, 2) +
+           "," + fixed(1e3 * deg_from_rad(scan.sigma.roll_rad), 2) + "," + fixed(1e3 * deg_from_rad(scan.sigma.pitch_rad), 2) + "," +
+           fixed(1e3 * deg_from_rad(scan.sigma.yaw_rad), 2) + "," + weak + "\n";
+  }
+  return csv;
+}
+
+}  // namespace adit::io

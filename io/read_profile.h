@@ -1,0 +1,15 @@
+#pragma once
+// The one door to design lines.
+
+#include <filesystem>
+#include <string>
+
+#include "core/design/profile.h"
+
+namespace adit::io {
+
+/// By ending: .csv and .txt as a table of points, .dxf as a drawing, whose `layer` may be named. Throws Error for other
+/// endings, for what the readers refuse, and for a line wider or higher than 200 m (its unit is wrong).
+Profile read_profile(const std::filesystem::path& file, const std::string& layer = {});
+
+}  // namespace adit::io

@@ -1,0 +1,186 @@
+#include "io/results_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/foundation/angle.h"
+
+namespace adit::io {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json rows(const Pose& pose) {
+  json values = json::array();
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) values.push_back(pose.matrix()(r, c));
+  return values;
+}
+
+json sigma_mm(const PoseSigma& sigma) {
+  return {{"along", 1e3 * sigma.along_m}, {"across", 1e3 * sigma.across_m}, {"up", 1e3 * sigma.up_m}};
+}
+
+json sigma_mdeg(const PoseSigma& sigma) {
+  return {{"roll", 1e3 * deg_from_rad(sigma.roll_rad)},
+          {"pitch", 1e3 * deg_from_rad(sigma.pitch_rad)},
+          {"yaw", 1e3 * deg_from_rad(sigma.yaw_rad)}};
+}
+
+json findings_json(const Findings& findings) {
+  json list = json::array();
+  for (const Finding& f : findings) {
+    const char* severity = f.severity == Severity::note ? "note" : f.severity == Severity::warning ? "warning" : "decision";
+    list.push_back({{"severity", severity}, {"subject", f.subject}, {"words", f.words}, {"mend", f.mend}});
+  }
+  return list;
+}
+
+json registration_json(const Results& results) {
+  const RegistrationResult& registration = results.registration;
+  json out;
+  out["accepted"] = registration.accepted;
+  out["warnings"] = json::array();
+  for (const Finding& f : registration.findings) out["warnings"].push_back(f.subject + ": " + f.words);
+  out["scans"] = json::array();
+  for (std::size_t i = 0; i < registration.scans.size(); ++i) {
+    const PlacedScan& scan = registration.scans[i];
+    json one{{"name", scan.name}};
+    one["pose"] = scan.placed ? rows(site_from_scan(results, i)) : json(nullptr);
+    one["sigma_mm"] = sigma_mm(scan.sigma);
+    one["sigma_mdeg"] = sigma_mdeg(scan.sigma);
+    one["placed_by"] = scan.placed_by;
+    one["undetermined"] = scan.undetermined;
+    out["scans"].push_back(one);
+  }
+  out["pairs"] = json::array();
+  for (const PairResult& pair : registration.pairs)
+    out["pairs"].push_back({{"source", pair.source},
+                            {"target", pair.target},
+                            {"pose", rows(pair.target_from_source)},
+                            {"overlap", pair.overlap},
+                            {"rms_m", number(pair.rms_m)},
+                            {"median_m", number(pair.median_m)},
+                            {"median_distance_m", number(pair.median_distance_m)},
+                            {"within_6mm", pair.within_6mm},
+                            {"sigma_mm", sigma_mm(pair.sigma)},
+                            {"undetermined", pair.undetermined},
+                            {"used", pair.used}});
+  out["control"] = json::array();
+  for (const ControlResidual& c : registration.control)
+    out["control"].push_back({{"scan", c.scan}, {"id", c.id}, {"residual_mm", {1e3 * c.residual_m.x(), 1e3 * c.residual_m.y(), 1e3 * c.residual_m.z()}}});
+  out["control_rms_mm"] = 1e3 * registration.control_rms_m;
+  return out;
+}
+
+json line_json(const SectionAreas& areas) {
+  return {{"line", areas.line},
+          {"line_offset_m", areas.line_offset_m},
+          {"design_area_m2", areas.design_area_m2},
+          {"area_m2", areas.area_m2},
+          {"overbreak_m2", areas.overbreak_m2},
+          {"underbreak_m2", areas.underbreak_m2},
+          {"max_overbreak_m", areas.max_overbreak_m},
+          {"max_overbreak_p_m", areas.max_overbreak_p_m},
+          {"max_underbreak_m", areas.max_underbreak_m},
+          {"max_underbreak_p_m", areas.max_underbreak_p_m},
+          {"coverage", areas.coverage},
+          {"interpolated", areas.interpolated}};
+}
+
+json section_json(const Section& section) {
+  json one{{"chainage", section.chainage_m}, {"station", section.station_m}};
+  const Eigen::Vector3d& axis = section.axis_site;
+  one["axis"] = {axis.x(), axis.y(), axis.z()};
+  if (section.lines.empty()) return one;
+  for (const auto& [key, value] : line_json(section.lines.front()).items()) one[key] = value;
+  one["lines"] = json::array();
+  for (const SectionAreas& areas : section.lines) one["lines"].push_back(line_json(areas));
+  return one;
+}
+
+json amounts_json(const VolumeAmounts& amounts) {
+  return {{"design_m3", amounts.design_m3},
+          {"excavated_m3", amounts.excavated_m3},
+          {"overbreak_m3", amounts.overbreak_m3},
+          {"underbreak_m3", amounts.underbreak_m3}};
+}
+
+json volume_json(const Volume& volume) {
+  json one{{"line", volume.line}, {"line_offset_m", volume.line_offset_m}, {"from", volume.from_m}, {"to", volume.to_m}};
+  for (const auto& [key, value] : amounts_json(volume.slices).items()) one[key] = value;
+  one["sigma_m3"] = volume.sigma_excavated_m3;
+  one["sigma_overbreak_m3"] = volume.sigma_overbreak_m3;
+  one["sigma_underbreak_m3"] = volume.sigma_underbreak_m3;
+  one["coverage"] = volume.coverage;
+  one["measured_m2"] = volume.measured_m2;
+  one["interpolated_m2"] = volume.interpolated_m2;
+  one["unseen_m2"] = volume.unseen_m2;
+  one["closure_m3"] = volume.closure_m3;
+  one["average_end_area"] = amounts_json(volume.average_end_area);
+  one["prismoidal"] = amounts_json(volume.prismoidal);
+  return one;
+}
+
+json mesh_json(const MeshSummary& mesh) {
+  return {{"points", mesh.points},
+          {"triangles", mesh.triangles},
+          {"edges", mesh.edges},
+          {"boundary_loops", mesh.boundary_loops},
+          {"components", mesh.components},
+          {"area_m2", mesh.area_m2},
+          {"mean_edge_m", mesh.mean_edge_m},
+          {"longest_loop_m", mesh.longest_loop_m},
+          {"holes_m", mesh.holes_m},
+          {"mean_deviation_m", number(mesh.mean_deviation_m)},
+          {"sigma_deviation_m", number(mesh.sigma_deviation_m)}};
+}
+
+json truth_json(const TruthComparison& truth) {
+  return {{"worst_position_error_mm", 1e3 * truth.worst_position_error_m},
+          {"worst_rotation_error_deg", deg_from_rad(truth.worst_rotation_error_rad)},
+          {"true_volume", amounts_json(truth.true_volume)},
+          {"excavated_error", truth.excavated_error},
+          {"overbreak_error", truth.overbreak_error},
+          {"underbreak_error_m3", truth.underbreak_error_m3},
+          {"section_area_rms", truth.section_area_rms}};
+}
+
+}  // namespace
+
+std::string results_text(const Results& results) {
+  json root;
+  root["adit"] = results.version;
+  root["inputs"] = json::array();
+  for (const InputRecord& input : results.import.inputs)
+    root["inputs"].push_back({{"file", input.file}, {"sha256", input.sha256}, {"points", input.points}});
+  const Eigen::Vector3d& origin = results.import.origin.position;
+  root["origin"] = {origin.x(), origin.y(), origin.z()};
+  if (!results.registration.scans.empty()) root["registration"] = registration_json(results);
+  if (results.surface) root["mesh"] = mesh_json(results.surface->mesh);
+  if (results.profile) {
+    root["sections"] = json::array();
+    for (const Section& section : results.profile->sections) root["sections"].push_back(section_json(section));
+  }
+  if (results.volume && !results.volume->lines.empty()) {
+    root["volume"] = volume_json(results.volume->lines.front());
+    root["volumes"] = json::array();
+    for (const Volume& volume : results.volume->lines) root["volumes"].push_back(volume_json(volume));
+    root["rounds"] = json::array();
+    for (const RoundVolume& round : results.volume->rounds) {
+      json one{{"number", round.number}, {"drilled_m", round.drilled_m > 0.0 ? json(round.drilled_m) : json(nullptr)}};
+      for (const auto& [key, value] : volume_json(round.volume).items()) one[key] = value;
+      root["rounds"].push_back(one);
+    }
+  }
+  if (results.truth) root["truth"] = truth_json(*results.truth);
+  root["findings"] = findings_json(all_findings(results));
+  root["timing_s"] = json::object();
+  for (const StepTime& time : results.timing) root["timing_s"][time.step] = time.seconds;
+  root["peak_memory_bytes"] = results.peak_memory_bytes;
+  return root.dump(1) + "\n";
+}
+
+}  // namespace adit::io

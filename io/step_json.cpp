@@ -1,0 +1,141 @@
+#include "io/step_json.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/foundation/error.h"
+
+// Eigen types as flat lists.
+namespace nlohmann {
+
+template <int Rows, int Columns>
+struct adl_serializer<Eigen::Matrix<double, Rows, Columns>> {
+  static void to_json(json& out, const Eigen::Matrix<double, Rows, Columns>& matrix) {
+    out = json::array();
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) out.push_back(matrix.data()[i]);
+  }
+  static void from_json(const json& in, Eigen::Matrix<double, Rows, Columns>& matrix) {
+    if (static_cast<Eigen::Index>(in.size()) != matrix.size()) throw adit::Error("a matrix of another size");
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) matrix.data()[i] = in.at(static_cast<std::size_t>(i)).get<double>();
+  }
+};
+
+template <>
+struct adl_serializer<adit::Pose> {
+  static void to_json(json& out, const adit::Pose& pose) { out = Eigen::Matrix4d(pose.matrix()); }
+  static void from_json(const json& in, adit::Pose& pose) { pose.matrix() = in.get<Eigen::Matrix4d>(); }
+};
+
+}  // namespace nlohmann
+
+namespace adit {
+
+NLOHMANN_JSON_SERIALIZE_ENUM(Severity, {{Severity::note, "note"}, {Severity::warning, "warning"}, {Severity::decision, "decision"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, severity, subject, words, mend)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputRecord, file, sha256, points)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ProjectOrigin, position)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImportedScan, name, offset, points, no_returns)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImportResult, inputs, scans, origin, findings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PoseSigma, along_m, across_m, up_m, roll_rad, pitch_rad, yaw_rad)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairResult, source, target, target_from_source, overlap, rms_m, median_m, median_distance_m,
+                                   within_6mm, sigma, undetermined, used, information)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlacedScan, name, placed, local_from_scan, sigma, placed_by, undetermined)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlResidual, scan, id, residual_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RegistrationResult, accepted, scans, pairs, control, control_rms_m, findings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeAmounts, design_m3, excavated_m3, overbreak_m3, underbreak_m3)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Volume, line, line_offset_m, from_m, to_m, slices, average_end_area, prismoidal,
+                                   sigma_excavated_m3, sigma_overbreak_m3, sigma_underbreak_m3, coverage, measured_m2,
+                                   interpolated_m2, unseen_m2, closure_m3)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RoundVolume, number, drilled_m, volume)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeResult, lines, rounds, findings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshSummary, points, triangles, edges, boundary_loops, components, area_m2, mean_edge_m,
+                                   longest_loop_m, holes_m, mean_deviation_m, sigma_deviation_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SurfaceResult, mesh, findings)
+
+}  // namespace adit
+
+namespace adit::io {
+namespace {
+
+/// JSON has no word for "not a number"; a value far out of every range stands for it.
+constexpr double no_number = -1e300;
+
+template <typename Result>
+void read(const std::string& text, Result& result) {
+  try {
+    result = nlohmann::json::parse(text).get<Result>();
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(std::string("what an earlier run left is damaged: ") + error.what(), "", "run the job again");
+  }
+}
+
+void swap_number(double& value, bool writing) {
+  if (writing && std::isnan(value)) value = no_number;
+  if (!writing && value <= no_number) value = std::numeric_limits<double>::quiet_NaN();
+}
+
+void swap_numbers(RegistrationResult& result, bool writing) {
+  for (PairResult& pair : result.pairs)
+    for (double* value : {&pair.rms_m, &pair.median_m, &pair.median_distance_m}) swap_number(*value, writing);
+}
+
+void swap_numbers(SurfaceResult& result, bool writing) {
+  swap_number(result.mesh.mean_deviation_m, writing);
+  swap_number(result.mesh.sigma_deviation_m, writing);
+}
+
+}  // namespace
+
+std::string step_text(const ImportResult& result) { return nlohmann::json(result).dump(1); }
+
+std::string step_text(const RegistrationResult& result) {
+  RegistrationResult copy = result;
+  swap_numbers(copy, true);
+  return nlohmann::json(copy).dump(1);
+}
+
+std::string step_text(const SurfaceResult& result) {
+  SurfaceResult copy = result;
+  swap_numbers(copy, true);
+  return nlohmann::json(copy).dump(1);
+}
+
+std::string step_text(const ProfileResult& result) {
+  return nlohmann::json{{"points_used", result.points_used},
+                        {"points_inside", result.points_inside},
+                        {"points_outside", result.points_outside},
+                        {"findings", result.findings}}
+      .dump(1);
+}
+
+std::string step_text(const VolumeResult& result) { return nlohmann::json(result).dump(1); }
+
+void read_step_text(const std::string& text, ImportResult& result) { read(text, result); }
+
+void read_step_text(const std::string& text, RegistrationResult& result) {
+  read(text, result);
+  swap_numbers(result, false);
+}
+
+void read_step_text(const std::string& text, SurfaceResult& result) {
+  read(text, result);
+  swap_numbers(result, false);
+}
+
+void read_step_text(const std::string& text, ProfileResult& result) {
+  nlohmann::json json;
+  read(text, json);
+  try {
+    result.points_used = json.at("points_used").get<std::uint64_t>();
+    result.points_inside = json.at("points_inside").get<std::uint64_t>();
+    result.points_outside = json.at("points_outside").get<std::uint64_t>();
+    result.findings = json.at("findings").get<Findings>();
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(std::string("what an earlier run left is damaged: ") + error.what(), "", "run the job again");
+  }
+}
+
+void read_step_text(const std::string& text, VolumeResult& result) { read(text, result); }
+
+}  // namespace adit::io
