@@ -130,6 +130,7 @@ void PointStore::expect_intact(std::size_t tile, std::size_t prefix) const {
 PointCloud PointStore::read(std::size_t tile, std::size_t prefix) const {
   const StoredTile& row = header_.tiles.at(tile);
   const std::size_t wanted = std::min<std::size_t>(prefix, row.count);
+  if (wanted == 0) return {};
   expect_intact(tile, wanted);
   return unpacked(header_, file_.bytes().subspan(row.byte_offset), row.count, wanted);
 }
