@@ -105,11 +105,9 @@ bool LineReader::fill() {
       throw Error("the text is UTF-16", file_->name(), "save it as UTF-8");
     if (buffer_.starts_with("\xEF\xBB\xBF")) next_ = 3;
   }
-  if (const void* zero = got > 0 ? std::memchr(buffer_.data() + kept, 0, got) : nullptr; zero != nullptr)
-    throw Error(
-        "a byte of zero; this is no text file",
-        file_->at_byte(buffer_offset_ + static_cast<std::size_t>(static_cast<const char*>(zero) - buffer_.data())),
-        "check the file's ending and that it was copied whole");
+  if (const std::size_t zero = buffer_.find('\0', kept); zero != std::string::npos)
+    throw Error("a byte of zero; this is no text file", file_->at_byte(buffer_offset_ + zero),
+                "check the file's ending and that it was copied whole");
   return got > 0;
 }
 
