@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -115,12 +114,9 @@ bool LineReader::next() {
   line_ = {};
   std::size_t searched = 0;
   while (true) {
-    const std::size_t from = next_ + searched;
-    const void* found =
-        from < buffer_.size() ? std::memchr(buffer_.data() + from, '\n', buffer_.size() - from) : nullptr;
-    if (found != nullptr) {
-      const auto length = static_cast<std::size_t>(static_cast<const char*>(found) - buffer_.data()) - next_;
-      take_line(length, length + 1);
+    const std::size_t end = buffer_.find('\n', next_ + searched);
+    if (end != std::string::npos) {
+      take_line(end - next_, end - next_ + 1);
       return true;
     }
     searched = buffer_.size() - next_;
