@@ -61,7 +61,7 @@ void judge(PairResult& pair, const PreparedScan& target, const PreparedScan& sou
   const double tukey_m = tukey_reach_m(equations_at(0.25 * options.match_distance_m), options.match_distance_m);
   NormalEquations equations = equations_at(tukey_m);
   const double noise = std::max(options.point_sigma_m, robust_sigma(equations.residuals_m));
-  const PairInformation known = judge_observability(equations, noise, axes, options.undetermined_sigma_m);
+  const PairInformation known = judge_observability(equations, noise, source.spacing_m, axes, options.undetermined_sigma_m);
   pair.sigma = known.sigma;
   pair.undetermined = known.undetermined;
   pair.information = known.information;
