@@ -92,7 +92,7 @@ Demo plan_demo(const DemoOptions& options) {
   rock.first_round_m = first_round_m;
   rock.round_length_m = round_length_m;
   DesignTunnel design = DesignTunnel(axis, {{axis_start_m, demo_profile()}}, {DesignLine{}}).relative_to(origin);
-  return {options, axis, RockTunnel(std::move(design), rock), origin, last_station, {first_station_m - 2.0, last_station + 8.0, 1.0}};
+  return {options, axis, RockTunnel(std::move(design), rock), origin, last_station, {first_station_m - 2.0, last_station + 6.0, 1.0}};
 }
 
 Pose true_pose(const Demo& demo, int station) {
