@@ -22,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+constexpr double opening_share = 0.02;
+constexpr double steps_share = 0.97;
 
 /// Holds out/.lock while a run writes there.
 class FolderLock {
@@ -101,8 +103,18 @@ bool do_step(JobState& state, const Step& step, const RunOptions& options, Progr
 
 }  // namespace
 
+std::vector<double> step_bounds(const JobState& state) {
+  const std::vector<Step> steps = all_steps();
+  double total = 0.0;
+  for (const Step& step : steps) total += step.wanted(state) ? step.share : 0.0;
+  std::vector<double> bounds{opening_share};
+  for (const Step& step : steps)
+    bounds.push_back(bounds.back() + (step.wanted(state) ? steps_share * step.share / total : 0.0));
+  return bounds;
+}
+
 std::shared_ptr<JobState> run_job(const fs::path& job_file, const RunOptions& options, Progress& progress) {
-  Progress opening = progress.part(0.02, "reading the job");
+  Progress opening = progress.part(opening_share, "reading the job");
   auto state = std::make_shared<JobState>(open_job(job_file, options.out, opening));
   state->results.version = version;
   std::optional<FolderLock> lock;
@@ -111,11 +123,11 @@ std::shared_ptr<JobState> run_job(const fs::path& job_file, const RunOptions& op
     lock.emplace(state->out);
   }
   const std::vector<Step> steps = all_steps();
-  double total = 0.0;
-  for (const Step& step : steps) total += step.wanted(*state) ? step.share : 0.0;
-  for (const Step& step : steps) {
+  const std::vector<double> bounds = step_bounds(*state);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Step& step = steps[i];
     if (step.wanted(*state)) {
-      Progress part = progress.part(0.97 * step.share / total, step.message);
+      Progress part = progress.part(bounds[i + 1] - bounds[i], step.message);
       if (!do_step(*state, step, options, part)) break;
     } else if (step.name == options.last_step) {
       throw Error("the job has no alignment and profile, which \"" + step.name + "\" needs", job_file.string(),

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/job_state.h"
 #include "app/step.h"
@@ -22,5 +23,9 @@ struct RunOptions {
 /// A step is done when its key file names the hash of all it depends on. Throws Error (bad input, disk full, another
 /// run in the same folder), Cancelled; finished steps stay finished.
 std::shared_ptr<JobState> run_job(const std::filesystem::path& job_file, const RunOptions& options, Progress& progress);
+
+/// Fractions of a run's progress between which each step of all_steps() runs: begins, and the end of the last. A step
+/// that is not wanted ends where it begins.
+std::vector<double> step_bounds(const JobState& state);
 
 }  // namespace adit::app

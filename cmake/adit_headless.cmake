@@ -7,3 +7,9 @@ function(adit_headless target)
   target_link_options(${target} BEFORE PRIVATE -Wl,--no-as-needed ${OSMESA_LINK_LIBRARIES})
   set_target_properties(${target} PROPERTIES ENABLE_EXPORTS ON)
 endfunction()
+
+# The same for a program with Dear ImGui: its loader opens libGL by name (tests/ui/imgui_without_x.cpp).
+function(adit_headless_imgui target)
+  adit_headless(${target})
+  target_link_options(${target} PRIVATE -Wl,--wrap=dlopen,--wrap=dlsym)
+endfunction()

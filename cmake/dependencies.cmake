@@ -31,3 +31,15 @@ target_link_libraries(adit_pcl INTERFACE ${PCL_LIBRARIES})
 
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel RenderingCore RenderingOpenGL2 RenderingFreeType
                                          FiltersCore FiltersSources)
+
+if(ADIT_GUI)
+  find_package(glfw3 3.3 REQUIRED)
+  find_package(OpenGL REQUIRED)
+  # Debian's Dear ImGui: the backends for GLFW and OpenGL 3 are inside; its headers want both roots.
+  find_library(IMGUI_LIBRARY imgui REQUIRED)
+  find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui REQUIRED)
+  find_library(STB_LIBRARY stb REQUIRED)
+  add_library(adit_imgui INTERFACE)
+  target_include_directories(adit_imgui SYSTEM INTERFACE ${IMGUI_INCLUDE_DIR})
+  target_link_libraries(adit_imgui INTERFACE ${IMGUI_LIBRARY} ${STB_LIBRARY} ${CMAKE_DL_LIBS})
+endif()

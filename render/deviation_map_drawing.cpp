@@ -122,11 +122,10 @@ void draw_rounds(Canvas& canvas, const PlotArea& area, const std::vector<JobRoun
   }
 }
 
-void draw_strip(Canvas& canvas, const Rect& rect, const DeviationMap& map, const Strip& strip,
+void draw_strip(Canvas& canvas, const MapStrip& place, const DeviationMap& map, const Strip& strip,
                 const DeviationScale& scale, const MapTexts& texts) {
-  const PlotArea area{rect, map.from_m + static_cast<double>(strip.row_begin) * map.step_s_m,
-                      map.from_m + static_cast<double>(strip.row_end) * map.step_s_m, 0.0,
-                      static_cast<double>(map.columns) * map.step_q_m};
+  const Rect& rect = place.rect;
+  const PlotArea area{rect, place.from_m, place.to_m, 0.0, static_cast<double>(map.columns) * map.step_q_m};
   canvas.hatch({ring_of(rect)}, {colours::light_grey, 0.15, {}}, 1.2, M_PI / 4.0);
   canvas.picture(picture_of(map, strip, scale), rect, false);
   draw_marks(canvas, area, texts.marks);
@@ -171,14 +170,10 @@ double deviation_map_height(const DeviationMap& map, double width_mm) {
          legend_mm;
 }
 
-void draw_deviation_map(Canvas& canvas, const Rect& rect, const DeviationMap& map, const DeviationScale& scale,
-                        const MapTexts& texts) {
+std::vector<MapStrip> map_strips(const Rect& rect, const DeviationMap& map) {
+  std::vector<MapStrip> places;
   const std::vector<Strip> strips = strips_of(map);
-  if (strips.empty() || map.columns == 0) {
-    canvas.text(rect.centre(), "no deviation map",
-                {.colour = colours::grey, .across = Across::centre, .down = Down::middle});
-    return;
-  }
+  if (strips.empty() || map.columns == 0) return places;
   const double width = rect.width - left_mm - 3.0;
   const double full = static_cast<double>(strips.front().row_end);
   const double room = (rect.height - legend_mm) / static_cast<double>(strips.size()) - rounds_mm - below_mm;
@@ -186,13 +181,28 @@ void draw_deviation_map(Canvas& canvas, const Rect& rect, const DeviationMap& ma
   double y = rect.top + rounds_mm;
   for (const Strip& strip : strips) {
     const double share = static_cast<double>(strip.row_end - strip.row_begin) / full;
-    draw_strip(canvas, {rect.left + left_mm, y, width * share, height}, map, strip, scale, texts);
+    places.push_back({{rect.left + left_mm, y, width * share, height},
+                      map.from_m + static_cast<double>(strip.row_begin) * map.step_s_m,
+                      map.from_m + static_cast<double>(strip.row_end) * map.step_s_m});
     y += height + below_mm + rounds_mm;
   }
-  y -= rounds_mm;
-  canvas.text({rect.left + left_mm + width / 2.0, y - below_mm + 4.4}, "chainage [m]",
+  return places;
+}
+
+void draw_deviation_map(Canvas& canvas, const Rect& rect, const DeviationMap& map, const DeviationScale& scale,
+                        const MapTexts& texts) {
+  const std::vector<Strip> strips = strips_of(map);
+  const std::vector<MapStrip> places = map_strips(rect, map);
+  if (places.empty()) {
+    canvas.text(rect.centre(), "no deviation map",
+                {.colour = colours::grey, .across = Across::centre, .down = Down::middle});
+    return;
+  }
+  for (std::size_t i = 0; i < strips.size(); ++i) draw_strip(canvas, places[i], map, strips[i], scale, texts);
+  const double below = places.back().rect.bottom() + below_mm;
+  canvas.text({places.front().rect.centre().x(), below - below_mm + 4.4}, "chainage [m]",
               {.size_mm = text_mm, .colour = colours::grey, .across = Across::centre});
-  draw_legend(canvas, {rect.left, y, rect.width, legend_mm}, scale, texts);
+  draw_legend(canvas, {rect.left, below, rect.width, legend_mm}, scale, texts);
 }
 
 std::vector<LineMark> line_marks(const DesignTunnel& design, const DeviationMap& map) {

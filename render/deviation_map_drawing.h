@@ -35,6 +35,16 @@ std::vector<float> seen_deviations(const DeviationMap& map);
 /// Height [mm] the drawing needs at a width.
 double deviation_map_height(const DeviationMap& map, double width_mm);
 
+/// A strip of the drawn map: its place on the paper, chainage from its left to its right rim.
+struct MapStrip {
+  Rect rect;
+  double from_m = 0.0;
+  double to_m = 0.0;
+};
+
+/// Where draw_deviation_map() puts the strips in a rectangle.
+std::vector<MapStrip> map_strips(const Rect& rect, const DeviationMap& map);
+
 /// Draws the map (long ones in strips below each other) with axes and legend. Left wall on top, crown in the middle,
 /// chainage to the right: the tunnel as seen from above, opened at the floor. Unseen cells are hatched, interpolated
 /// ones pale and dotted.
