@@ -28,6 +28,7 @@ constexpr double axis_start_m = 1000.0;
 constexpr double first_station_m = 1050.0;
 constexpr double station_spacing_m = 13.0;
 constexpr double round_length_m = 4.0;
+constexpr double first_round_m = 1000.4;  // rounds begin between the whole metres where sections stand
 constexpr double curve_radius_m = 250.0;
 constexpr double grade = 0.025;
 
@@ -88,10 +89,10 @@ Demo plan_demo(const DemoOptions& options) {
   rock.seed = options.seed;
   rock.from_m = axis_start_m + 1.0;
   rock.face_m = face;
-  rock.first_round_m = axis_start_m;
+  rock.first_round_m = first_round_m;
   rock.round_length_m = round_length_m;
   DesignTunnel design = DesignTunnel(axis, {{axis_start_m, demo_profile()}}, {DesignLine{}}).relative_to(origin);
-  return {options, axis, RockTunnel(std::move(design), rock), origin, last_station, {first_station_m - 2.0, last_station + 8.0, 1.0}};
+  return {options, axis, RockTunnel(std::move(design), rock), origin, last_station, {first_station_m - 2.0, last_station + 6.0, 1.0}};
 }
 
 Pose true_pose(const Demo& demo, int station) {
@@ -187,7 +188,7 @@ Job demo_job(const Demo& demo, const std::vector<Pose>& poses) {
   job.lines = {{"excavation", 0.0}, {"pay", 0.25}};
   job.chainage = demo.stretch;
   int number = 100;
-  for (double s = axis_start_m; s + round_length_m <= demo.stretch.to_m; s += round_length_m, ++number)
+  for (double s = first_round_m; s + round_length_m <= demo.stretch.to_m; s += round_length_m, ++number)
     if (s >= demo.stretch.from_m) job.rounds.push_back({number, s, s + round_length_m, round_length_m + 0.2});
   return job;
 }

@@ -31,9 +31,7 @@ std::vector<std::string> attribute_names(const Attributes& attributes) {
 }
 
 CloudBuilder::CloudBuilder(Attributes attributes, const ReadOptions& options, NanMeans nan_means)
-    : attributes_(attributes), options_(options), nan_means_(nan_means) {
-  chunk_.reserve(chunk_points);
-}
+    : attributes_(attributes), options_(options), nan_means_(nan_means) {}
 
 void CloudBuilder::expect(std::uint64_t count) {
   const auto n = static_cast<std::size_t>(count);

@@ -33,7 +33,7 @@ std::vector<std::byte> packed(const PointStoreHeader& header, const PointCloud& 
                               std::size_t count) {
   const TileLayout layout = tile_layout(header, count);
   std::vector<std::byte> bytes(layout.bytes);
-  std::memcpy(bytes.data(), cloud.points.data() + begin, 12 * count);
+  std::memcpy(bytes.data(), static_cast<const void*>(cloud.points.data() + begin), 12 * count);
   if (header.has_intensity) std::memcpy(bytes.data() + layout.intensity, cloud.intensity.data() + begin, 4 * count);
   if (header.has_colour) std::memcpy(bytes.data() + layout.colour, cloud.colour.data() + begin, 3 * count);
   return bytes;
@@ -130,6 +130,7 @@ void PointStore::expect_intact(std::size_t tile, std::size_t prefix) const {
 PointCloud PointStore::read(std::size_t tile, std::size_t prefix) const {
   const StoredTile& row = header_.tiles.at(tile);
   const std::size_t wanted = std::min<std::size_t>(prefix, row.count);
+  if (wanted == 0) return {};
   expect_intact(tile, wanted);
   return unpacked(header_, file_.bytes().subspan(row.byte_offset), row.count, wanted);
 }

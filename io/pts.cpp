@@ -22,7 +22,8 @@ Attributes attributes_of(const LineReader& lines, std::size_t values) {
 void take(const LineReader& lines, const std::vector<Field>& fields, FilePoint& point) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     point.position[static_cast<Eigen::Index>(axis)] = lines.number_or_nan(fields[axis]);
-  if (fields.size() == 4 || fields.size() == 7) point.intensity = static_cast<float>(lines.number_or_nan(fields[3]));
+  if (fields.size() == 4 || fields.size() == 7)
+    point.intensity = static_cast<float>(lines.number_or_nan(fields[3], "the intensity"));
   if (fields.size() >= 6)
     for (std::size_t c = 0; c < 3; ++c) point.colour[c] = lines.byte(fields[fields.size() - 3 + c]);
 }

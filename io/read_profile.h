@@ -9,7 +9,7 @@
 namespace adit::io {
 
 /// By ending: .csv and .txt as a table of points, .dxf as a drawing, whose `layer` may be named. Throws Error for other
-/// endings, for what the readers refuse, and for a line wider or higher than 200 m (its unit is wrong).
+/// endings and for what the readers refuse.
 Profile read_profile(const std::filesystem::path& file, const std::string& layer = {});
 
 }  // namespace adit::io

@@ -90,12 +90,17 @@ json line_json(const SectionAreas& areas) {
           {"interpolated", areas.interpolated}};
 }
 
+/// Members of `more` added to an object.
+void add_members(json& object, const json& more) {
+  for (const auto& [key, value] : more.items()) object[key] = value;
+}
+
 json section_json(const Section& section) {
   json one{{"chainage", section.chainage_m}, {"station", section.station_m}};
   const Eigen::Vector3d& axis = section.axis_site;
   one["axis"] = {axis.x(), axis.y(), axis.z()};
   if (section.lines.empty()) return one;
-  for (const auto& [key, value] : line_json(section.lines.front()).items()) one[key] = value;
+  add_members(one, line_json(section.lines.front()));
   one["lines"] = json::array();
   for (const SectionAreas& areas : section.lines) one["lines"].push_back(line_json(areas));
   return one;
@@ -110,7 +115,7 @@ json amounts_json(const VolumeAmounts& amounts) {
 
 json volume_json(const Volume& volume) {
   json one{{"line", volume.line}, {"line_offset_m", volume.line_offset_m}, {"from", volume.from_m}, {"to", volume.to_m}};
-  for (const auto& [key, value] : amounts_json(volume.slices).items()) one[key] = value;
+  add_members(one, amounts_json(volume.slices));
   one["sigma_m3"] = volume.sigma_excavated_m3;
   one["sigma_overbreak_m3"] = volume.sigma_overbreak_m3;
   one["sigma_underbreak_m3"] = volume.sigma_underbreak_m3;
@@ -171,7 +176,7 @@ std::string results_text(const Results& results) {
     root["rounds"] = json::array();
     for (const RoundVolume& round : results.volume->rounds) {
       json one{{"number", round.number}, {"drilled_m", round.drilled_m > 0.0 ? json(round.drilled_m) : json(nullptr)}};
-      for (const auto& [key, value] : volume_json(round.volume).items()) one[key] = value;
+      add_members(one, volume_json(round.volume));
       root["rounds"].push_back(one);
     }
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -95,31 +94,29 @@ bool LineReader::fill() {
   buffer_.erase(0, next_);
   next_ = 0;
   const std::size_t kept = buffer_.size();
-  buffer_.resize(kept + block_bytes);
-  const std::size_t got = file_->read_some(buffer_offset_ + kept, buffer_.data() + kept, block_bytes);
+  const std::uint64_t from = buffer_offset_ + kept;
+  const std::uint64_t left = from < file_->size() ? file_->size() - from : 0;
+  buffer_.resize(kept + static_cast<std::size_t>(std::min<std::uint64_t>(block_bytes, left)));
+  const std::size_t got = file_->read_some(from, buffer_.data() + kept, buffer_.size() - kept);
   buffer_.resize(kept + got);
   if (buffer_offset_ == 0 && kept == 0) {
     if (buffer_.starts_with("\xFF\xFE") || buffer_.starts_with("\xFE\xFF"))
       throw Error("the text is UTF-16", file_->name(), "save it as UTF-8");
     if (buffer_.starts_with("\xEF\xBB\xBF")) next_ = 3;
   }
-  if (const void* zero = got > 0 ? std::memchr(buffer_.data() + kept, 0, got) : nullptr; zero != nullptr)
-    throw Error(
-        "a byte of zero; this is no text file",
-        file_->at_byte(buffer_offset_ + static_cast<std::size_t>(static_cast<const char*>(zero) - buffer_.data())),
-        "check the file's ending and that it was copied whole");
+  if (const std::size_t zero = buffer_.find('\0', kept); zero != std::string::npos)
+    throw Error("a byte of zero; this is no text file", file_->at_byte(buffer_offset_ + zero),
+                "check the file's ending and that it was copied whole");
   return got > 0;
 }
 
 bool LineReader::next() {
+  line_ = {};
   std::size_t searched = 0;
   while (true) {
-    const std::size_t from = next_ + searched;
-    const void* found =
-        from < buffer_.size() ? std::memchr(buffer_.data() + from, '\n', buffer_.size() - from) : nullptr;
-    if (found != nullptr) {
-      const auto length = static_cast<std::size_t>(static_cast<const char*>(found) - buffer_.data()) - next_;
-      take_line(length, length + 1);
+    const std::size_t end = buffer_.find('\n', next_ + searched);
+    if (end != std::string::npos) {
+      take_line(end - next_, end - next_ + 1);
       return true;
     }
     searched = buffer_.size() - next_;
@@ -159,15 +156,15 @@ const std::vector<Field>& LineReader::fields_between_blanks() {
   return fields_;
 }
 
-double LineReader::number_or_nan(const Field& field) const {
+double LineReader::number_or_nan(const Field& field, std::string_view unit) const {
   const auto value = parsed(field.text);
-  if (!value) not_a_number(field);
+  if (!value) not_a_number(field, unit);
   return *value;
 }
 
-double LineReader::number(const Field& field) const {
-  const double value = number_or_nan(field);
-  if (!std::isfinite(value)) not_a_number(field);
+double LineReader::number(const Field& field, std::string_view unit) const {
+  const double value = number_or_nan(field, unit);
+  if (!std::isfinite(value)) not_a_number(field, unit);
   return value;
 }
 
@@ -181,17 +178,17 @@ std::uint64_t LineReader::count(const Field& field) const {
 }
 
 std::uint8_t LineReader::byte(const Field& field) const {
-  const double value = number(field);
+  const double value = number(field, "a colour");
   if (value < 0.0 || value > 255.0 || value != std::floor(value))
     fail(field, "a whole number from 0 to 255 is needed, found " + quoted_word(field.text), "write colours as bytes");
   return static_cast<std::uint8_t>(value);
 }
 
-void LineReader::not_a_number(const Field& field) const {
+void LineReader::not_a_number(const Field& field, std::string_view unit) const {
   if (field.text.empty()) fail(field, "a number is needed, found nothing", "fill the field in");
   const std::string what = "a number is needed, found " + quoted_word(field.text);
   if (is_comma_decimal(field.text)) fail(field, what, "write a decimal point, not a comma");
-  fail(field, what, "write digits with a decimal point");
+  fail(field, what, "write " + std::string(unit) + " with a decimal point");
 }
 
 std::string LineReader::place() const {

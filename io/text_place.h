@@ -60,10 +60,11 @@ class LineReader {
   const std::vector<Field>& fields(char separator);
   const std::vector<Field>& fields_between_blanks();
 
-  /// The finite number a field holds, with a decimal point, whatever the locale. Error otherwise.
-  double number(const Field& field) const;
+  /// The finite number a field holds, with a decimal point, whatever the locale. Error otherwise; its mend names what
+  /// to write ("write metres with a decimal point").
+  double number(const Field& field, std::string_view unit = "metres") const;
   /// As number(), but "nan" and "inf" pass: scans mark points without a return so.
-  double number_or_nan(const Field& field) const;
+  double number_or_nan(const Field& field, std::string_view unit = "metres") const;
   /// The whole number from 0 a field holds. Error otherwise.
   std::uint64_t count(const Field& field) const;
   /// The whole number 0 .. 255 a field holds (a colour). Error otherwise.
@@ -79,7 +80,7 @@ class LineReader {
  private:
   bool fill();
   void take_line(std::size_t length, std::size_t with_end);
-  [[noreturn]] void not_a_number(const Field& field) const;
+  [[noreturn]] void not_a_number(const Field& field, std::string_view unit) const;
 
   std::unique_ptr<InputFile> own_file_;
   const InputFile* file_;

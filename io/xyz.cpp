@@ -79,7 +79,8 @@ void take(const LineReader& lines, const std::vector<Field>& fields, const XyzCo
   point.position = {lines.number_or_nan(field(XyzTarget::x)), lines.number_or_nan(field(XyzTarget::y)),
                     lines.number_or_nan(field(XyzTarget::z))};
   const Attributes attributes = columns.attributes();
-  if (attributes.intensity) point.intensity = static_cast<float>(lines.number_or_nan(field(XyzTarget::intensity)));
+  if (attributes.intensity)
+    point.intensity = static_cast<float>(lines.number_or_nan(field(XyzTarget::intensity), "the intensity"));
   if (attributes.colour)
     point.colour = {lines.byte(field(XyzTarget::red)), lines.byte(field(XyzTarget::green)),
                     lines.byte(field(XyzTarget::blue))};

@@ -19,8 +19,10 @@ void TerminalProgress::clear() {
 void TerminalProgress::report(double fraction, const std::string& message) {
   if (quiet_) return;
   if (!terminal_) {
-    if (message != last_message_) std::fprintf(stderr, "%3.0f %%  %s\n", 100.0 * fraction, message.c_str());
+    if (message == last_message_ || Clock::now() - last_ < std::chrono::seconds(1)) return;
+    std::fprintf(stderr, "%3.0f %%  %s\n", 100.0 * fraction, message.c_str());
     last_message_ = message;
+    last_ = Clock::now();
     return;
   }
   const auto now = Clock::now();

@@ -8,7 +8,7 @@
 
 namespace adit::app {
 
-/// Draws on stderr when it is a terminal; elsewhere writes a line when the message changes. Silent when quiet.
+/// Draws on stderr when it is a terminal; elsewhere writes a line at most every second. Silent when quiet.
 class TerminalProgress : public ProgressSink {
  public:
   explicit TerminalProgress(bool quiet);

@@ -43,8 +43,8 @@ class Profile {
  public:
   Profile() = default;
   /// Takes the segments in either sense of rotation, from any start. Throws Error when they do not join (1 mm), do not
-  /// close, cross themselves, have no inside (0.01 m2) or are not finite; the message names the segments, counted from
-  /// 1 as given, and the place.
+  /// close, cross themselves, have no inside (0.01 m2), measure over 500 m or are not finite; the message names the
+  /// segments, counted from 1 as given, and the place.
   Profile(std::string name, std::vector<ProfileSegment> segments);
 
   const std::string& name() const { return name_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,7 @@ constexpr double touch_m = 1e-7;
 constexpr double crossing_flatness_m = 1e-3;
 constexpr double least_area_m2 = 0.01;
 constexpr double largest_bulge = 50.0;
+constexpr double largest_m = 500.0;
 
 struct NumberedSegment {
   ProfileSegment segment;
@@ -44,6 +46,14 @@ void check_numbers(const NumberedSegment& s) {
     throw Error(segment_name(s) + " of the profile is nearly a full circle, at " + place(s.segment.start), {},
                 "give a circle as two half circles");
   }
+}
+
+void check_size(const NumberedRing& ring) {
+  Eigen::AlignedBox2d box;
+  for (const NumberedSegment& s : ring) box.extend(ProfilePiece(s.segment).box());
+  if (box.sizes().maxCoeff() <= largest_m) return;
+  throw Error("the profile is " + rounded(box.sizes().x()) + " m wide and " + rounded(box.sizes().y()) + " m high", {},
+              "check its unit: metres are needed");
 }
 
 /// Throws at the first joint that is wider than 1 mm; a line with a single gap is called open.
@@ -160,11 +170,20 @@ void check_crossings(const NumberedRing& ring) {
     const Edge& next = edges[(i + 1) % n];
     if (folds_back(edges[i], next)) refuse_crossing(ring[edges[i].in_ring], ring[next.in_ring], edges[i].b);
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;  // neighbours across the closing point
-      if (const auto at = meeting(edges[i], edges[j]))
-        refuse_crossing(ring[edges[i].in_ring], ring[edges[j].in_ring], *at);
+  // From left to right: an edge is compared with those that begin before it ends.
+  const auto left = [&](std::size_t i) { return std::min(edges[i].a.x(), edges[i].b.x()); };
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return left(i) < left(j); });
+  for (std::size_t a = 0; a < n; ++a) {
+    const Edge& edge = edges[order[a]];
+    const double right = std::max(edge.a.x(), edge.b.x()) + touch_m;
+    for (std::size_t b = a + 1; b < n && left(order[b]) <= right; ++b) {
+      const auto [first, second] = std::minmax(order[a], order[b]);
+      if (second - first == 1 || second - first == n - 1) continue;  // neighbours share their joint
+      if (const auto at = meeting(edges[first], edges[second])) {
+        refuse_crossing(ring[edges[first].in_ring], ring[edges[second].in_ring], *at);
+      }
     }
   }
 }
@@ -173,6 +192,7 @@ void check_crossings(const NumberedRing& ring) {
 
 std::vector<ProfileSegment> checked_ring(const std::vector<ProfileSegment>& segments) {
   const NumberedRing ring = joined(segments);
+  check_size(ring);
   check_crossings(ring);
   std::vector<ProfileSegment> plain;
   for (const NumberedSegment& s : ring) plain.push_back(s.segment);

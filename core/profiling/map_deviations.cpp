@@ -224,7 +224,9 @@ MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunn
                   "%.1f m2 between chainage %.1f and %.1f stand out from the rock around and were taken as equipment, not as "
                   "underbreak",
                   static_cast<double>(objects.cells) * result.map.step_s_m * result.map.step_q_m, objects.from_m, objects.to_m);
-    result.findings.push_back({Severity::warning, "deviation map", words, "look at the sections there"});
+    const bool little = static_cast<double>(objects.cells) * result.map.step_s_m * result.map.step_q_m < 1.0;
+    result.findings.push_back(
+        {little ? Severity::note : Severity::warning, "deviation map", words, "look at the sections there"});
   }
   return result;
 }

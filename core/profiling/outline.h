@@ -18,8 +18,8 @@ struct Outline {
   double unseen_m = 0.0;             ///< ... and not seen; there the outline follows the line
 };
 
-/// Between measured cells deviations are interpolated along the line; a gap of more than one cell and up to gap_m is
-/// closed by a straight chord between its measured ends and marked interpolated; longer gaps stay unseen.
+/// Between measured cells deviations are interpolated along the line; so are gaps up to gap_m, which are marked
+/// interpolated (a gap across a corner is closed by a straight chord instead); longer gaps stay unseen.
 Outline outline_of(const std::vector<MapCell>& row, const ProfileStretch& stretch, double step_q_m, double gap_m);
 
 /// The outline as a polygon for a line at an offset: where nothing was seen it runs on that line.

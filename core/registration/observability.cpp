@@ -34,9 +34,11 @@ PoseSigma sigma_in_axes(const Matrix6d& covariance, const Eigen::Matrix3d& axes)
   return {root(move(0, 0)), root(move(1, 1)), root(move(2, 2)), root(turn(0, 0)), root(turn(1, 1)), root(turn(2, 2))};
 }
 
-PairInformation judge_observability(const NormalEquations& equations, double noise_sigma_m,
+PairInformation judge_observability(const NormalEquations& equations, double noise_sigma_m, double spacing_m,
                                     const Eigen::Matrix3d& axes_in_target, double undetermined_sigma_m) {
-  const double scale = 1.0 / (noise_sigma_m * noise_sigma_m * normal_neighbours);
+  constexpr double independent_area_m2 = 0.25;
+  const double matches_in_one = std::max<double>(normal_neighbours, independent_area_m2 / (spacing_m * spacing_m));
+  const double scale = 1.0 / (noise_sigma_m * noise_sigma_m * matches_in_one);
   const Matrix6d signal = floored((equations.hessian - equations.noise) * scale, 1e-3);
   PairInformation result;
   result.sigma = sigma_in_axes(signal.inverse(), axes_in_target);

@@ -25,11 +25,12 @@ struct PairInformation {
   std::vector<Eigen::Vector3d> undetermined_axes;   ///< unit, target's frame
 };
 
-/// The hessian less its noise part, over the noise variance of a residual. Neighbouring points share their plane, so
-/// that only every `normal_neighbours`-th match is counted as independent. A direction is undetermined when its sigma
+/// The hessian less its noise part, over the noise variance of a residual. Neighbouring points share their plane and the
+/// scanner's own slow errors, so that a quarter of a square metre of surface (and no less than `normal_neighbours`
+/// matches) is counted as one independent match, whatever the spacing. A direction is undetermined when its sigma
 /// (rotation eliminated by the Schur complement) exceeds the limit, or when less than two thirds of its hessian are more
 /// than noise.
-PairInformation judge_observability(const NormalEquations& equations, double noise_sigma_m,
+PairInformation judge_observability(const NormalEquations& equations, double noise_sigma_m, double spacing_m,
                                     const Eigen::Matrix3d& axes_in_target, double undetermined_sigma_m);
 
 }  // namespace adit

@@ -4,13 +4,23 @@
 #include "core/geometry/voxel_grid.h"
 
 namespace adit {
+namespace {
+
+constexpr std::size_t enough_points = 20000;
+
+}  // namespace
 
 PreparedScan prepare_scan(const std::string& name, const TileSource& source, double spacing_m, double least_range_m,
                           double most_range_m, Progress& progress) {
   PreparedScan scan;
   scan.name = name;
   Progress thinning = progress.part(0.5, "");
+  scan.spacing_m = spacing_m;
   scan.points = even_subsample(source, spacing_m, least_range_m, most_range_m, thinning).points;
+  for (int turn = 0; turn < 2 && scan.points.size() < enough_points && scan.points.size() < total_points(source) / 3; ++turn) {
+    scan.spacing_m *= 0.5;
+    scan.points = even_subsample(source, scan.spacing_m, least_range_m, most_range_m, thinning).points;
+  }
   if (scan.points.size() < 500)
     throw Error("only " + std::to_string(scan.points.size()) + " places remain of this scan at a spacing of " +
                     std::to_string(spacing_m) + " m",

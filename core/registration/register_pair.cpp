@@ -12,22 +12,34 @@
 namespace adit {
 namespace {
 
-/// Robust Gauss-Newton with a shrinking reach; at most 20 steps a reach.
-Pose polished(const PreparedScan& target, const PreparedScan& source, Pose pose, double match_distance_m,
-              double spacing_m, Progress& progress) {
-  for (const double tukey_m : {0.5 * match_distance_m, 0.25 * match_distance_m, std::max(0.02, 0.4 * spacing_m)}) {
-    for (int iteration = 0; iteration < 20; ++iteration) {
-      progress.check();
-      const NormalEquations equations =
-          point_to_plane_equations(target, source, pose, match_distance_m, tukey_m, progress);
-      if (equations.weight < 50.0) return pose;
-      const Matrix6d damped = equations.hessian + 1e-6 * equations.weight * Matrix6d::Identity();
-      const Vector6d step = -damped.ldlt().solve(equations.gradient);
-      pose = stepped(pose, step);
-      if (step.head<3>().norm() < 2e-6 && step.tail<3>().norm() < 2e-5) break;
-    }
+/// Reach of Tukey's weights for the noise found in the overlap: 4.685 sigma keeps 95 % of the efficiency on normal noise.
+double tukey_reach_m(const NormalEquations& equations, double match_distance_m) {
+  return std::clamp(4.685 * robust_sigma(equations.residuals_m), 0.02, 0.5 * match_distance_m);
+}
+
+/// Robust Gauss-Newton steps until they are too small to matter, 20 at most.
+Pose stepped_to_rest(const PreparedScan& target, const PreparedScan& source, Pose pose, double match_distance_m,
+                     double tukey_m, Progress& progress) {
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    progress.check();
+    const NormalEquations equations = point_to_plane_equations(target, source, pose, match_distance_m, tukey_m, progress);
+    if (equations.weight < 50.0) return pose;
+    const Matrix6d damped = equations.hessian + 1e-6 * equations.weight * Matrix6d::Identity();
+    const Vector6d step = -damped.ldlt().solve(equations.gradient);
+    pose = stepped(pose, step);
+    if (step.head<3>().norm() < 2e-6 && step.tail<3>().norm() < 2e-5) break;
   }
   return pose;
+}
+
+/// First with a wide reach, then with the reach that fits the noise.
+Pose polished(const PreparedScan& target, const PreparedScan& source, Pose pose, double match_distance_m,
+              Progress& progress) {
+  for (const double share : {0.5, 0.25})
+    pose = stepped_to_rest(target, source, pose, match_distance_m, share * match_distance_m, progress);
+  const NormalEquations found =
+      point_to_plane_equations(target, source, pose, match_distance_m, 0.25 * match_distance_m, progress);
+  return stepped_to_rest(target, source, pose, match_distance_m, tukey_reach_m(found, match_distance_m), progress);
 }
 
 void put_back_to_guess(Pose& pose, const Pose& guess, const std::vector<Eigen::Vector3d>& axes) {
@@ -43,19 +55,19 @@ double share_below(const std::vector<double>& values, double limit) {
 
 void judge(PairResult& pair, const PreparedScan& target, const PreparedScan& source, const Pose& guess,
            const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress) {
-  const double tukey_m = std::max(0.02, 0.4 * options.spacing_m);
-  const auto equations_at = [&] {
+  const auto equations_at = [&](double tukey_m) {
     return point_to_plane_equations(target, source, pair.target_from_source, options.match_distance_m, tukey_m, progress);
   };
-  NormalEquations equations = equations_at();
+  const double tukey_m = tukey_reach_m(equations_at(0.25 * options.match_distance_m), options.match_distance_m);
+  NormalEquations equations = equations_at(tukey_m);
   const double noise = std::max(options.point_sigma_m, robust_sigma(equations.residuals_m));
-  const PairInformation known = judge_observability(equations, noise, axes, options.undetermined_sigma_m);
+  const PairInformation known = judge_observability(equations, noise, source.spacing_m, axes, options.undetermined_sigma_m);
   pair.sigma = known.sigma;
   pair.undetermined = known.undetermined;
   pair.information = known.information;
   if (!known.undetermined_axes.empty()) {
     put_back_to_guess(pair.target_from_source, guess, known.undetermined_axes);
-    equations = equations_at();
+    equations = equations_at(tukey_m);
   }
   std::vector<double> sizes;
   for (const double r : equations.residuals_m) sizes.push_back(std::abs(r));
@@ -63,7 +75,7 @@ void judge(PairResult& pair, const PreparedScan& target, const PreparedScan& sou
   pair.rms_m = root_mean_square(equations.residuals_m);
   pair.median_distance_m = median(equations.distances_m);
   pair.within_6mm = share_below(equations.residuals_m, 0.006);
-  pair.overlap = overlap_at(target, source, pair.target_from_source, 2.0 * options.spacing_m);
+  pair.overlap = overlap_at(target, source, pair.target_from_source, 2.0 * std::max(target.spacing_m, source.spacing_m));
 }
 
 }  // namespace
@@ -101,7 +113,7 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   Progress closest = progress.part(0.25, "");
   pose = icp_align(target, source, pose, icp, closest);
   Progress last = progress.part(0.15, "");
-  pair.target_from_source = polished(target, source, pose, options.match_distance_m, options.spacing_m, last);
+  pair.target_from_source = polished(target, source, pose, options.match_distance_m, last);
   judge(pair, target, source, guess, tunnel_axes(axis_in_target), options, last);
   return pair;
 }

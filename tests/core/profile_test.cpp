@@ -152,6 +152,7 @@ TEST(DesignLine, ALineThatTouchesItselfOrFoldsBackIsRefused) {
 
 TEST(DesignLine, RefusesWhatHasNoInside) {
   expect_mentions(message_of(rectangle(0.2, 0.04)), {"area", "0.008", "unit"});
+  expect_mentions(message_of(rectangle(6000, 3)), {"6000 m wide", "unit"});
   EXPECT_NE(message_of({}), "");
   EXPECT_NE(message_of({{{0, 0}, {1, 0}, 0}}), "");
   EXPECT_NE(message_of({{{0, 0}, {1, 0}, 0}, {{1, 0}, {0, 0}, 0}}), "");

@@ -100,7 +100,9 @@ TEST(TextPlace, MessagesNamePlaceWordAndMend) {
   LineReader lines(folder.write("control.csv", "id,east,north\nP1,412.0,7\nP2,  4l2.0,7\nM\xC3\xBC,1,,\n5 4,2\n"));
   ASSERT_TRUE(lines.next() && lines.next() && lines.next());
   EXPECT_THAT(words_of([&] { lines.number(lines.fields(',').at(1)); }),
-              EndsWith("control.csv:3:6: a number is needed, found \"4l2.0\"; write digits with a decimal point"));
+              EndsWith("control.csv:3:6: a number is needed, found \"4l2.0\"; write metres with a decimal point"));
+  EXPECT_THAT(words_of([&] { lines.number(lines.fields(',').at(1), "degrees"); }),
+              EndsWith("write degrees with a decimal point"));
   ASSERT_TRUE(lines.next());
   EXPECT_THAT(words_of([&] { lines.number(lines.fields(',').at(2)); }),
               EndsWith("control.csv:4:6: a number is needed, found nothing; fill the field in"));

@@ -1,0 +1,64 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/cleaning/no_returns.h"
+#include "core/foundation/angle.h"
+#include "core/geometry/nearest_neighbours.h"
+#include "core/geometry/statistics.h"
+#include "io/scan_formats.h"
+#include "tests/app/run.h"
+#include "tests/real_data.h"
+#include "tests/temporary_folder.h"
+
+namespace adit {
+namespace {
+
+using tests::TemporaryFolder;
+
+TEST(RealJobsData, CorridorRunsToAReportAndItsWallsFallTogether) {
+  ADIT_NEED_REAL_DATA();
+  const TemporaryFolder folder;
+  const auto state = tests::run(tests::real_data() / "corridor" / "job.json", folder / "out");
+  ASSERT_EQ(state->results.registration.pairs.size(), 3U);
+  for (const PairResult& pair : state->results.registration.pairs) {
+    EXPECT_TRUE(pair.used);
+    EXPECT_LT(pair.median_m, 0.030) << pair.source << " " << pair.target;  // from the walls, on the other scan's planes
+    EXPECT_GT(pair.overlap, 0.3);
+  }
+  // The floor and both walls stand about 2.5 m apart where the corridor is closed.
+  ASSERT_TRUE(state->results.profile);
+  double least_width = 1e9;
+  for (const Section& section : state->results.profile->sections) {
+    double left = -1e9, right = 1e9;
+    for (const OutlinePoint& p : section.outline) {
+      if (p.kind != CellKind::measured || p.position.y() < 1.2 || p.position.y() > 1.6) continue;
+      if (p.position.x() < 0.0) left = std::max(left, p.position.x());
+      if (p.position.x() > 0.0) right = std::min(right, p.position.x());
+    }
+    if (left > -1e8 && right < 1e8) least_width = std::min(least_width, right - left);
+  }
+  EXPECT_NEAR(least_width, 2.5, 0.25);
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "out" / "report.pdf"));
+  // The pulses without an echo are gone and said.
+  for (const ImportedScan& scan : state->results.import.scans) EXPECT_GT(scan.no_returns, 1000U);
+}
+
+TEST(RealJobsData, RoomRegistersToItsKnownPose) {
+  ADIT_NEED_REAL_DATA();
+  const TemporaryFolder folder;
+  for (const char* name : {"room_scan1.pcd", "room_scan2.pcd"})
+    std::filesystem::copy_file(tests::real_data() / "room" / name, folder / name);
+  folder.write("job.json", R"({"adit": 1, "scans": [
+    {"name": "R1", "file": "room_scan1.pcd", "pose": {"position": [0, 0, 0]}},
+    {"name": "R2", "file": "room_scan2.pcd", "pose": {"position": [1.79, 0.72, 0], "yaw_pitch_roll_deg": [39.7, 0, 0]}}]})");
+  const auto state = tests::run(folder.path(), {}, "register");
+  const Pose pose = site_from_scan(state->results, 0).inverse() * site_from_scan(state->results, 1);
+  EXPECT_NEAR(pose.translation().x(), 1.966, 0.010);
+  EXPECT_NEAR(pose.translation().y(), 0.056, 0.010);
+  EXPECT_NEAR(pose.translation().z(), 0.020, 0.010);
+  EXPECT_NEAR(deg_from_rad(yaw_pitch_roll(pose).yaw_rad), 40.8, 0.2);
+}
+
+}  // namespace
+}  // namespace adit

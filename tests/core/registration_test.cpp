@@ -1,0 +1,187 @@
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/foundation/error.h"
+#include "core/registration/observability.h"
+#include "core/registration/pose_graph.h"
+#include "tests/core/sample_tunnel.h"
+
+namespace adit {
+namespace {
+
+using namespace tests;
+
+RegistrationContext context_along(const DesignTunnel& design) {
+  RegistrationContext context;
+  const Alignment axis = design.alignment();
+  context.axis_direction = [axis](const Eigen::Vector3d& where) {
+    const auto at = axis.to_tunnel(where);
+    const Eigen::Vector2d t = axis.horizontal().at(at ? at->s_m : axis.from_m()).tangent();
+    return Eigen::Vector3d(t.x(), t.y(), 0.0);
+  };
+  return context;
+}
+
+struct TwoScans {
+  RockTunnel rock = sample_rock();
+  Pose first = station(rock.design(), 36.0, 10.0);
+  Pose second = station(rock.design(), 44.0, 140.0);
+  std::vector<ScanToPlace> scans() const {
+    return {scan_to_place("A", scan_at(rock, first, 1), first),
+            scan_to_place("B", scan_at(rock, second, 2), off(second, {0.3, -0.35, 0.1}, 2.0))};
+  }
+};
+
+TEST(RegistrationSlow, PlacesAScanGuessedHalfAMetreAndTwoDegreesOff) {
+  const TwoScans two;
+  Progress progress;
+  const RegistrationResult result = register_scans(two.scans(), context_along(two.rock.design()), {}, progress);
+  ASSERT_EQ(result.scans.size(), 2U);
+  EXPECT_TRUE(result.accepted);
+  EXPECT_LT(distance_between_m(result.scans[1].local_from_scan, two.second), 0.005);
+  EXPECT_LT(deg_from_rad(rotation_between_rad(result.scans[1].local_from_scan, two.second)), 0.02);
+  ASSERT_EQ(result.pairs.size(), 1U);
+  EXPECT_TRUE(result.pairs[0].undetermined.empty());
+  EXPECT_LT(result.pairs[0].median_m, 0.006);
+  // The stated sigma is honest: the error lies within four of it.
+  EXPECT_LT(distance_between_m(result.scans[1].local_from_scan, two.second), 4.0 * result.scans[1].sigma.along_m + 0.002);
+}
+
+TEST(RegistrationSlow, GivesTheSameBytesOnOneThreadAndTwo) {
+  const TwoScans two;
+  const auto poses = [&](int threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    Progress progress;
+    return register_scans(two.scans(), context_along(two.rock.design()), {}, progress).scans[1].local_from_scan;
+  };
+  EXPECT_EQ(poses(1).matrix(), poses(2).matrix());
+}
+
+TEST(RegistrationSlow, AFeaturelessTubeIsUndeterminedAlongAndHeldAtItsGuess) {
+  // No look-out, no roughness, no face in reach: only noise tells along from along.
+  RockTunnelOptions smooth;
+  smooth.from_m = 1.0;
+  smooth.face_m = 110.0;
+  smooth.lookout_collar_m = smooth.lookout_toe_m = 0.1;
+  smooth.roughness_sigma_m = smooth.floor_sigma_m = 0.0;
+  smooth.clutter = false;
+  const RockTunnel tube(sample_design(arch_profile()), smooth);
+  const Pose first = station(tube.design(), 50.0, 0.0);
+  const Pose second = station(tube.design(), 58.0, 90.0);
+  const Eigen::Vector2d t = tube.design().alignment().horizontal().at(50.0).tangent();
+  const Eigen::Vector3d along(t.x(), t.y(), 0.0);
+  const Pose guess = off(second, 0.3 * along, 1.0);
+  Progress progress;
+  const RegistrationResult result = register_scans({scan_to_place("A", scan_at(tube, first, 1), first),
+                                                    scan_to_place("B", scan_at(tube, second, 2), guess)},
+                                                   context_along(tube.design()), {}, progress);
+  EXPECT_FALSE(result.accepted);
+  ASSERT_FALSE(result.pairs[0].undetermined.empty());
+  EXPECT_EQ(result.pairs[0].undetermined.front(), "along");
+  const Eigen::Vector3d error = result.scans[1].local_from_scan.translation() - second.translation();
+  EXPECT_NEAR(error.dot(along), 0.3, 0.02);                        // held at the guess
+  EXPECT_LT((error - along * error.dot(along)).norm(), 0.005);     // the rest is found
+  EXPECT_GT(result.scans[1].sigma.along_m, 0.1);                   // and it says so
+  EXPECT_TRUE(std::any_of(result.findings.begin(), result.findings.end(),
+                          [](const Finding& f) { return f.severity == Severity::decision && f.subject == "scan B"; }));
+}
+
+TEST(RegistrationSlow, ControlDeterminesWhatACloudCannot) {
+  RockTunnelOptions smooth;
+  smooth.from_m = 1.0;
+  smooth.face_m = 110.0;
+  smooth.lookout_collar_m = smooth.lookout_toe_m = 0.1;
+  smooth.roughness_sigma_m = smooth.floor_sigma_m = 0.0;
+  smooth.clutter = false;
+  const RockTunnel tube(sample_design(arch_profile()), smooth);
+  const std::vector<Pose> truth{station(tube.design(), 50.0, 0.0), station(tube.design(), 58.0, 90.0)};
+  RegistrationContext context = context_along(tube.design());
+  for (int k = 0; k < 5; ++k) {
+    const double s = 48.0 + 3.0 * k;
+    const Eigen::Vector3d place = tube.design().alignment().to_site({s, k % 2 == 0 ? -3.9 : 3.9, 1.0 + 0.5 * k});
+    context.control.push_back({"T" + std::to_string(k), place});
+    for (std::size_t i = 0; i < 2; ++i)
+      context.targets.push_back({i == 0 ? "A" : "B", "T" + std::to_string(k), truth[i].inverse() * place});
+  }
+  Progress progress;
+  const RegistrationResult result = register_scans({scan_to_place("A", scan_at(tube, truth[0], 1), off(truth[0], {0.2, 0.2, 0}, 1)),
+                                                    scan_to_place("B", scan_at(tube, truth[1], 2), off(truth[1], {-0.2, 0.1, 0}, -1))},
+                                                   context, {}, progress);
+  EXPECT_TRUE(result.accepted);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(distance_between_m(result.scans[i].local_from_scan, truth[i]), 0.003);
+  EXPECT_LT(result.control_rms_m, 0.002);
+}
+
+TEST(Registration, AScanWithoutGuessAndTargetsIsSaidNotGuessed) {
+  const RockTunnel rock = sample_rock();
+  const Pose pose = station(rock.design(), 36.0, 10.0);
+  ScanToPlace lost = scan_to_place("lost", scan_at(rock, pose, 4, 20000), pose);
+  lost.local_from_scan_guess.reset();
+  Progress progress;
+  RegistrationOptions options;
+  options.spacing_m = 0.2;
+  const RegistrationResult result =
+      register_scans({scan_to_place("A", scan_at(rock, pose, 1, 20000), pose), lost}, context_along(rock.design()), options, progress);
+  EXPECT_FALSE(result.scans[1].placed);
+  EXPECT_EQ(result.scans[1].placed_by, "not placed");
+  EXPECT_FALSE(result.accepted);
+}
+
+TEST(Registration, ATargetWithoutControlPointIsRefused) {
+  RegistrationContext context;
+  context.targets.push_back({"A", "T9", {1, 2, 3}});
+  PointCloud cloud;
+  cloud.points.assign(10, Eigen::Vector3f::Zero());
+  Progress progress;
+  EXPECT_THROW(register_scans({scan_to_place("A", cloud, Pose::Identity())}, context, {}, progress), Error);
+}
+
+Matrix6d tight() { return Matrix6d::Identity() * 1e6; }
+
+TEST(PoseGraph, ClosesALoopAndIgnoresAPlantedWrongPair) {
+  std::vector<Pose> truth;
+  for (int i = 0; i < 5; ++i) truth.push_back(make_pose({6.0 * i, 0.5 * i, 0.0}, {0.2 * i, 0.0, 0.0}));
+  PoseGraph graph;
+  graph.datum = 0;
+  graph.guess_sigma_rad = 0.1;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    graph.local_from_scan.push_back(i == 0 ? truth[i] : off(truth[i], {0.2, -0.1, 0.05}, 1.0));
+  for (std::size_t i = 0; i + 1 < truth.size(); ++i) {
+    graph.pairs.push_back({i + 1, i, truth[i].inverse() * truth[i + 1], tight()});
+    if (i + 2 < truth.size()) graph.pairs.push_back({i + 2, i, truth[i].inverse() * truth[i + 2], tight()});
+  }
+  Progress progress;
+  const PoseGraphResult clean = solve_pose_graph(graph, progress);
+  for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_LT(distance_between_m(clean.local_from_scan[i], truth[i]), 1e-4);
+  graph.pairs.push_back({4, 0, off(truth[0].inverse() * truth[4], {1.0, 0.5, 0.0}, 5.0), tight()});
+  const PoseGraphResult planted = solve_pose_graph(graph, progress);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_LT(distance_between_m(planted.local_from_scan[i], clean.local_from_scan[i]), 0.001);
+  EXPECT_GT(planted.pair_misfit.back(), 1000.0);
+}
+
+TEST(PoseGraph, ControlGivesDatumAndCovariance) {
+  const Pose truth = make_pose({10, 20, 3}, {1.0, 0.01, 0.02});
+  PoseGraph graph;
+  graph.local_from_scan = {off(truth, {0.3, 0.2, 0.1}, 2.0)};
+  graph.control_sigma_m = 0.002;
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(5, 0, 0), Eigen::Vector3d(0, 5, 1), Eigen::Vector3d(-5, 0, 2), Eigen::Vector3d(0, -5, 3)})
+    graph.control.push_back({0, p, truth * p});
+  Progress progress;
+  const PoseGraphResult result = solve_pose_graph(graph, progress);
+  EXPECT_LT(distance_between_m(result.local_from_scan[0], truth), 1e-5);  // the loose guess pulls a little
+  EXPECT_NEAR(std::sqrt(result.covariance[0](3, 3)), 0.001, 0.0005);      // 2 mm over four points
+}
+
+TEST(Observability, AxesAreAlongRightUp) {
+  const Eigen::Matrix3d axes = tunnel_axes({0, 2, 0});
+  EXPECT_TRUE(axes.row(0).isApprox(Eigen::RowVector3d(0, 1, 0)));
+  EXPECT_TRUE(axes.row(1).isApprox(Eigen::RowVector3d(1, 0, 0)));
+  EXPECT_TRUE(axes.row(2).isApprox(Eigen::RowVector3d(0, 0, 1)));
+}
+
+}  // namespace
+}  // namespace adit
