@@ -32,7 +32,8 @@ constexpr double first_round_m = 1000.4;  // rounds begin between the whole metr
 constexpr double curve_radius_m = 250.0;
 constexpr double grade = 0.025;
 
-HorizontalElement next_element(const HorizontalElement& before, HorizontalKind kind, double length_m, double from_k, double to_k) {
+HorizontalElement next_element(const HorizontalElement& before, HorizontalKind kind, double length_m, double from_k,
+                               double to_k) {
   const PlanPoint end = element_point(before, before.length_m);
   HorizontalElement element;
   element.kind = kind;
@@ -52,7 +53,8 @@ Alignment demo_axis(const DemoOptions& options, double length_m) {
   line.length_m = 60.0;
   std::vector<HorizontalElement> elements{line};
   elements.push_back(next_element(elements.back(), HorizontalKind::clothoid, 40.0, 0.0, 1.0 / curve_radius_m));
-  elements.push_back(next_element(elements.back(), HorizontalKind::arc, length_m - 100.0, 1.0 / curve_radius_m, 1.0 / curve_radius_m));
+  elements.push_back(
+      next_element(elements.back(), HorizontalKind::arc, length_m - 100.0, 1.0 / curve_radius_m, 1.0 / curve_radius_m));
   VerticalPoint begin, end;
   begin.chainage_m = axis_start_m;
   begin.elevation_m = options.elevation_m;
@@ -73,8 +75,8 @@ Profile demo_profile() {
 
 struct Demo {
   DemoOptions options;
-  Alignment axis;          ///< site
-  RockTunnel tunnel;       ///< local frame
+  Alignment axis;     ///< site
+  RockTunnel tunnel;  ///< local frame
   Eigen::Vector3d origin;
   double last_station_m;
   JobChainage stretch;
@@ -92,7 +94,8 @@ Demo plan_demo(const DemoOptions& options) {
   rock.first_round_m = first_round_m;
   rock.round_length_m = round_length_m;
   DesignTunnel design = DesignTunnel(axis, {{axis_start_m, demo_profile()}}, {DesignLine{}}).relative_to(origin);
-  return {options, axis, RockTunnel(std::move(design), rock), origin, last_station, {first_station_m - 2.0, last_station + 6.0, 1.0}};
+  return {options, axis,         RockTunnel(std::move(design), rock),
+          origin,  last_station, {first_station_m - 2.0, last_station + 6.0, 1.0}};
 }
 
 Pose true_pose(const Demo& demo, int station) {
@@ -100,7 +103,8 @@ Pose true_pose(const Demo& demo, int station) {
   const double s = first_station_m + station_spacing_m * station;
   const double x = (station % 2 == 0 ? -0.7 : 0.8) + 0.2 * random.uniform(0, -1, 1);
   const Eigen::Vector3d position = demo.tunnel.design().alignment().to_site({s, x, 1.65 + 0.1 * random.uniform(1)});
-  return make_pose(position, {random.uniform(2, -pi, pi), rad_from_deg(random.uniform(3, -0.5, 0.5)), rad_from_deg(random.uniform(4, -0.5, 0.5))});
+  return make_pose(position, {random.uniform(2, -pi, pi), rad_from_deg(random.uniform(3, -0.5, 0.5)),
+                              rad_from_deg(random.uniform(4, -0.5, 0.5))});
 }
 
 /// The true pose moved and turned by exactly the guess errors, in a random direction.
@@ -122,7 +126,8 @@ std::vector<ControlPoint> true_control(const Demo& demo) {
   for (double s = demo.stretch.from_m - 3.0; s < demo.stretch.to_m + 2.0; s += 4.7, ++i) {
     const ProfilePoint at = demo.tunnel.profile().at(places[i % 5]);
     const Eigen::Vector2d place = at.position + (demo.tunnel.deviation(s, at.p_m) - 0.05) * at.normal;
-    points.push_back({"T" + std::to_string(101 + i), demo.tunnel.design().alignment().to_site({s, place.x(), place.y()})});
+    points.push_back(
+        {"T" + std::to_string(101 + i), demo.tunnel.design().alignment().to_site({s, place.x(), place.y()})});
   }
   return points;
 }
@@ -146,7 +151,8 @@ void write_control(const Demo& demo, const std::vector<Pose>& poses, const fs::p
       if (!sees(demo, poses[i], truth[k].position)) continue;
       const std::uint64_t n = 10000 + 3 * (1000 * i + k);
       const Eigen::Vector3d seen_noise(random.normal(n), random.normal(n + 1), random.normal(n + 2));
-      targets.push_back({"S" + std::to_string(i + 1), truth[k].id, poses[i].inverse() * truth[k].position + 0.001 * seen_noise});
+      targets.push_back(
+          {"S" + std::to_string(i + 1), truth[k].id, poses[i].inverse() * truth[k].position + 0.001 * seen_noise});
     }
   }
   io::write_file_atomically(folder / "control.csv", io::control_csv_text(surveyed));

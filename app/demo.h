@@ -10,14 +10,14 @@ namespace adit::app {
 
 struct DemoOptions {
   std::uint64_t seed = 1;
-  int stations = 4;                   ///< 1 to 40, 13 m apart
-  std::uint64_t points = 1000000;     ///< pulses a station; a few per cent have no echo
-  double guess_error_m = 0.5;         ///< how far the guesses in job.json are off
+  int stations = 4;                ///< 1 to 40, 13 m apart
+  std::uint64_t points = 1000000;  ///< pulses a station; a few per cent have no echo
+  double guess_error_m = 0.5;      ///< how far the guesses in job.json are off
   double guess_error_deg = 2.0;
-  double east_m = 612345.0;           ///< where the axis begins
+  double east_m = 612345.0;  ///< where the axis begins
   double north_m = 6998765.0;
   double elevation_m = 412.0;
-  bool control = true;                ///< write control.csv and targets.csv
+  bool control = true;  ///< write control.csv and targets.csv
 };
 
 /// Writes scans/, axis.xml, profile.dxf, control.csv, targets.csv, truth.json and job.json into the folder (made when

@@ -43,15 +43,16 @@ void check_range(const JobState& state, const std::string& key, double from_m, d
   const Alignment& axis = *state.alignment;
   if (from_m >= axis.from_m() - tolerance_m && to_m <= axis.to_m() + tolerance_m) return;
   char words[200];
-  std::snprintf(words, sizeof words, "%.3f to %.3f lies outside the axis \"%s\", which runs from %.3f to %.3f", from_m, to_m,
-                axis.name().c_str(), axis.from_m(), axis.to_m());
-  throw Error(words, (state.folder / "job.json").string() + ": " + key, "choose chainages on the axis");
+  std::snprintf(words, sizeof words, "%.3f to %.3f lies outside the axis \"%s\", which runs from %.3f to %.3f", from_m,
+                to_m, axis.name().c_str(), axis.from_m(), axis.to_m());
+  throw Error(words, state.file.string() + ": " + key, "choose chainages on the axis");
 }
 
 void check_design(const JobState& state) {
   const Job& job = state.job;
-  const std::string file = (state.folder / "job.json").string();
-  if (!job.profiles.empty() && !state.alignment) throw Error("\"profile\" without \"alignment\"", file, "name the alignment file, too");
+  const std::string file = state.file.string();
+  if (!job.profiles.empty() && !state.alignment)
+    throw Error("\"profile\" without \"alignment\"", file, "name the alignment file, too");
   if (job.chainage && !state.has_design())
     throw Error("\"chainage\" without \"alignment\" and \"profile\"", file, "name both files, too");
   if (!state.alignment) return;
@@ -71,7 +72,8 @@ void check_targets(const JobState& state) {
                                          [&](const ControlPoint& point) { return point.id == target.id; });
     if (!known_point)
       throw Error("target " + target.id + " of scan " + target.scan + " has no control point",
-                  (state.folder / state.job.targets).string(), "add it to " + state.job.control + " or remove the target");
+                  (state.folder / state.job.targets).string(),
+                  "add it to " + state.job.control + " or remove the target");
   }
 }
 
@@ -85,6 +87,7 @@ JobChainage JobState::stretch() const {
 JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progress) {
   const fs::path file = fs::is_directory(job_file) ? job_file / "job.json" : job_file;
   JobState state;
+  state.file = file;
   state.job = io::read_job(file);
   state.folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   state.out = out.empty() ? state.folder / "out" : out;

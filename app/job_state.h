@@ -21,24 +21,25 @@ namespace adit::app {
 
 struct JobState {
   Job job;
-  std::filesystem::path folder;                      ///< of job.json
-  std::filesystem::path out;                         ///< of everything derived
+  std::filesystem::path file;    ///< job.json itself
+  std::filesystem::path folder;  ///< of job.json
+  std::filesystem::path out;     ///< of everything derived
 
   // What the input files say (site coordinates).
-  std::map<std::string, std::string> input_sha256;   ///< by the name in job.json
+  std::map<std::string, std::string> input_sha256;  ///< by the name in job.json
   std::optional<Alignment> alignment;
   std::vector<ProfileFrom> profiles;
   std::vector<ControlPoint> control;
   std::vector<TargetObservation> targets;
-  std::optional<Truth> truth;                        ///< of a simulated job
+  std::optional<Truth> truth;  ///< of a simulated job
   Findings input_findings;
 
   // What the steps made.
   Results results;
   std::vector<std::shared_ptr<io::PointStore>> stores;  ///< in the order of the job's scans
-  std::optional<DesignTunnel> design;                ///< local frame
+  std::optional<DesignTunnel> design;                   ///< local frame
   std::optional<DeviationMap> map;
-  std::optional<io::MeshFile> mesh;                  ///< local frame
+  std::optional<io::MeshFile> mesh;  ///< local frame
 
   /// Where the steps' keys stand: by name of the step.
   std::map<std::string, std::string> keys;

@@ -31,10 +31,12 @@ class FolderLock {
   explicit FolderLock(const fs::path& folder) {
     const fs::path file = folder / ".lock";
     descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-    if (descriptor_ < 0) throw Error("the folder cannot be written", folder.string(), "check its permissions and the free space");
+    if (descriptor_ < 0)
+      throw Error("the folder cannot be written", folder.string(), "check its permissions and the free space");
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
     ::close(descriptor_);
-    throw Error("another run is writing to this folder", folder.string(), "wait for it to end, or choose another with --out");
+    throw Error("another run is writing to this folder", folder.string(),
+                "wait for it to end, or choose another with --out");
   }
   ~FolderLock() { ::close(descriptor_); }
   FolderLock(const FolderLock&) = delete;
@@ -44,7 +46,9 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-fs::path key_file(const JobState& state, const Step& step) { return state.out / "steps" / (step.name + ".key"); }
+fs::path key_file(const JobState& state, const Step& step) {
+  return state.out / "steps" / (step.name + ".key");
+}
 
 bool taken_up(JobState& state, const Step& step, const std::string& key) {
   const fs::path file = key_file(state, step);
@@ -58,7 +62,8 @@ bool taken_up(JobState& state, const Step& step, const std::string& key) {
   }
 }
 
-void run_step(JobState& state, const Step& step, const std::string& key, const StepContext& context, Progress& progress) {
+void run_step(JobState& state, const Step& step, const std::string& key, const StepContext& context,
+              Progress& progress) {
   std::error_code ignored;
   fs::remove(key_file(state, step), ignored);  // until the step is whole again
   try {

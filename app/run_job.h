@@ -13,9 +13,9 @@
 namespace adit::app {
 
 struct RunOptions {
-  std::filesystem::path out;     ///< everything derived; empty: "out" in the job's folder
-  std::string last_step;         ///< stop after this step; empty: all
-  bool only_take_up = false;     ///< run nothing: take up what earlier runs left, as far as it is up to date
+  std::filesystem::path out;  ///< everything derived; empty: "out" in the job's folder
+  std::string last_step;      ///< stop after this step; empty: all
+  bool only_take_up = false;  ///< run nothing: take up what earlier runs left, as far as it is up to date
   StepContext context;
 };
 

@@ -20,9 +20,9 @@ struct StepContext {
 };
 
 struct Step {
-  std::string name;                 ///< "register"
-  std::string message;              ///< "registering the scans"
-  double share = 0.0;               ///< of the progress bar
+  std::string name;     ///< "register"
+  std::string message;  ///< "registering the scans"
+  double share = 0.0;   ///< of the progress bar
   /// False: the job has nothing for this step (no design, say).
   bool (*wanted)(const JobState&);
   /// Text of everything the step depends on; its hash decides whether the step runs again.

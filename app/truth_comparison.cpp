@@ -22,7 +22,8 @@ TruthComparison compare_with_truth(const Results& results, const Truth& truth) {
   }
   if (results.volume && !results.volume->lines.empty()) {
     const Volume& volume = results.volume->lines.front();
-    const bool same_stretch = std::abs(volume.from_m - truth.from_m) < 1e-6 && std::abs(volume.to_m - truth.to_m) < 1e-6;
+    const bool same_stretch =
+        std::abs(volume.from_m - truth.from_m) < 1e-6 && std::abs(volume.to_m - truth.to_m) < 1e-6;
     if (same_stretch && volume.line_offset_m == 0.0) {
       comparison.excavated_error = volume.slices.excavated_m3 / truth.volume.excavated_m3 - 1.0;
       comparison.overbreak_error = volume.slices.overbreak_m3 / truth.volume.overbreak_m3 - 1.0;

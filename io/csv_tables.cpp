@@ -24,12 +24,14 @@ std::string word(const std::string& text) {
 void add_volume_row(std::string& csv, const std::string& what, const Volume& volume, const char* method,
                     const VolumeAmounts& amounts, bool has_sigma) {
   csv += what + "," + word(volume.line) + "," + fixed(volume.line_offset_m, 4) + "," + fixed(volume.from_m, 3) + "," +
-         fixed(volume.to_m, 3) + "," + method + "," + fixed(amounts.design_m3, 4) + "," + fixed(amounts.excavated_m3, 4) + "," +
-         fixed(amounts.overbreak_m3, 4) + "," + fixed(amounts.underbreak_m3, 4) + ",";
+         fixed(volume.to_m, 3) + "," + method + "," + fixed(amounts.design_m3, 4) + "," +
+         fixed(amounts.excavated_m3, 4) + "," + fixed(amounts.overbreak_m3, 4) + "," + fixed(amounts.underbreak_m3, 4) +
+         ",";
   csv += has_sigma ? fixed(volume.sigma_excavated_m3, 4) + "," + fixed(volume.sigma_overbreak_m3, 4) + "," +
                          fixed(volume.sigma_underbreak_m3, 4)
                    : std::string(",,");
-  csv += "," + fixed(volume.coverage, 4) + "," + fixed(volume.interpolated_m2, 3) + "," + fixed(volume.unseen_m2, 3) + "\n";
+  csv += "," + fixed(volume.coverage, 4) + "," + fixed(volume.interpolated_m2, 3) + "," + fixed(volume.unseen_m2, 3) +
+         "\n";
 }
 
 void add_volume(std::string& csv, const std::string& what, const Volume& volume) {
@@ -42,27 +44,30 @@ void add_volume(std::string& csv, const std::string& what, const Volume& volume)
 
 std::string sections_csv(const Results& results) {
   std::string csv =
-      "chainage_m,station_m,axis_east_m,axis_north_m,axis_elevation_m,line,line_offset_m,design_area_m2,area_m2,overbreak_m2,"
+      "chainage_m,station_m,axis_east_m,axis_north_m,axis_elevation_m,line,line_offset_m,design_area_m2,area_m2,"
+      "overbreak_m2,"
       "underbreak_m2,max_overbreak_m,max_overbreak_p_m,max_underbreak_m,max_underbreak_p_m,coverage,interpolated\n";
   if (!results.profile) return csv;
   for (const Section& section : results.profile->sections)
     for (const SectionAreas& a : section.lines)
-      csv += fixed(section.chainage_m, 3) + "," + fixed(section.station_m, 3) + "," + fixed(section.axis_site.x(), 4) + "," +
-             fixed(section.axis_site.y(), 4) + "," + fixed(section.axis_site.z(), 4) + "," + word(a.line) + "," +
+      csv += fixed(section.chainage_m, 3) + "," + fixed(section.station_m, 3) + "," + fixed(section.axis_site.x(), 4) +
+             "," + fixed(section.axis_site.y(), 4) + "," + fixed(section.axis_site.z(), 4) + "," + word(a.line) + "," +
              fixed(a.line_offset_m, 4) + "," + fixed(a.design_area_m2, 4) + "," + fixed(a.area_m2, 4) + "," +
              fixed(a.overbreak_m2, 4) + "," + fixed(a.underbreak_m2, 4) + "," + fixed(a.max_overbreak_m, 4) + "," +
-             fixed(a.max_overbreak_p_m, 3) + "," + fixed(a.max_underbreak_m, 4) + "," + fixed(a.max_underbreak_p_m, 3) + "," +
-             fixed(a.coverage, 4) + "," + fixed(a.interpolated, 4) + "\n";
+             fixed(a.max_overbreak_p_m, 3) + "," + fixed(a.max_underbreak_m, 4) + "," + fixed(a.max_underbreak_p_m, 3) +
+             "," + fixed(a.coverage, 4) + "," + fixed(a.interpolated, 4) + "\n";
   return csv;
 }
 
 std::string volumes_csv(const Results& results) {
   std::string csv =
-      "stretch,line,line_offset_m,from_m,to_m,method,design_m3,excavated_m3,overbreak_m3,underbreak_m3,sigma_excavated_m3,"
+      "stretch,line,line_offset_m,from_m,to_m,method,design_m3,excavated_m3,overbreak_m3,underbreak_m3,sigma_excavated_"
+      "m3,"
       "sigma_overbreak_m3,sigma_underbreak_m3,coverage,interpolated_m2,unseen_m2\n";
   if (!results.volume) return csv;
   for (const Volume& volume : results.volume->lines) add_volume(csv, "total", volume);
-  for (const RoundVolume& round : results.volume->rounds) add_volume(csv, "round " + std::to_string(round.number), round.volume);
+  for (const RoundVolume& round : results.volume->rounds)
+    add_volume(csv, "round " + std::to_string(round.number), round.volume);
   return csv;
 }
 
@@ -72,16 +77,22 @@ std::string registration_csv(const Results& results) {
       "sigma_roll_mdeg,sigma_pitch_mdeg,sigma_yaw_mdeg,undetermined\n";
   for (std::size_t i = 0; i < results.registration.scans.size(); ++i) {
     const PlacedScan& scan = results.registration.scans[i];
+    if (!scan.placed) {
+      csv += word(scan.name) + ",not placed,,,,,,,,,,,,,\n";
+      continue;
+    }
     const Pose pose = site_from_scan(results, i);
     const YawPitchRoll turn = yaw_pitch_roll(pose);
     std::string weak;
     for (const auto& direction : scan.undetermined) weak += (weak.empty() ? "" : " ") + direction;
-    csv += word(scan.name) + "," + scan.placed_by + "," + fixed(pose.translation().x(), 4) + "," + fixed(pose.translation().y(), 4) +
-           "," + fixed(pose.translation().z(), 4) + "," + fixed(deg_from_rad(turn.yaw_rad), 5) + "," +
-           fixed(deg_from_rad(turn.pitch_rad), 5) + "," + fixed(deg_from_rad(turn.roll_rad), 5) + "," +
-           fixed(1e3 * scan.sigma.along_m, 2) + "," + fixed(1e3 * scan.sigma.across_m, 2) + "," + fixed(1e3 * scan.sigma.up_m, 2) +
-           "," + fixed(1e3 * deg_from_rad(scan.sigma.roll_rad), 2) + "," + fixed(1e3 * deg_from_rad(scan.sigma.pitch_rad), 2) + "," +
-           fixed(1e3 * deg_from_rad(scan.sigma.yaw_rad), 2) + "," + weak + "\n";
+    csv += word(scan.name) + "," + scan.placed_by + "," + fixed(pose.translation().x(), 4) + "," +
+           fixed(pose.translation().y(), 4) + "," + fixed(pose.translation().z(), 4) + "," +
+           fixed(deg_from_rad(turn.yaw_rad), 5) + "," + fixed(deg_from_rad(turn.pitch_rad), 5) + "," +
+           fixed(deg_from_rad(turn.roll_rad), 5) + "," + fixed(1e3 * scan.sigma.along_m, 2) + "," +
+           fixed(1e3 * scan.sigma.across_m, 2) + "," + fixed(1e3 * scan.sigma.up_m, 2) + "," +
+           fixed(1e3 * deg_from_rad(scan.sigma.roll_rad), 2) + "," +
+           fixed(1e3 * deg_from_rad(scan.sigma.pitch_rad), 2) + "," + fixed(1e3 * deg_from_rad(scan.sigma.yaw_rad), 2) +
+           "," + weak + "\n";
   }
   return csv;
 }

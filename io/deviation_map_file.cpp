@@ -46,7 +46,8 @@ DeviationMap read_deviation_map(const std::filesystem::path& path) {
   const auto bytes = file.read(0, file.size(), "the deviation map");
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.substr(0, magic.size()) != magic) throw damaged;
-  if (sha256_of_bytes(text.substr(0, text.size() - checksum_size)) != text.substr(text.size() - checksum_size)) throw damaged;
+  if (sha256_of_bytes(text.substr(0, text.size() - checksum_size)) != text.substr(text.size() - checksum_size))
+    throw damaged;
   const std::byte* at = bytes.data() + magic.size();
   DeviationMap map;
   for (double* value : {&map.from_m, &map.to_m, &map.step_s_m, &map.step_q_m}) {

@@ -17,7 +17,8 @@ std::string existing_file(const JsonPlace& place, const fs::path& folder) {
   if (name.empty()) place.refuse("the name of a file is needed", "write it relative to the job's folder");
   std::error_code error;
   if (!fs::exists(folder / name, error))
-    place.refuse("there is no file \"" + name + "\"", "paths are relative to the job's folder: put it into " + folder.string());
+    place.refuse("there is no file \"" + name + "\"",
+                 "paths are relative to the job's folder: put it into " + folder.string());
   if (fs::is_directory(folder / name, error)) place.refuse("\"" + name + "\" is a folder", "name a file");
   return name;
 }
@@ -42,7 +43,8 @@ JobScan read_scan(const JsonPlace& place, const fs::path& folder) {
   if (pose.has("yaw_pitch_roll_deg")) {
     const auto turns = pose.at("yaw_pitch_roll_deg").numbers(3);
     for (const double turn : turns)
-      if (std::abs(turn) > 360.0) pose.at("yaw_pitch_roll_deg").refuse("an angle beyond 360 degrees", "degrees are needed");
+      if (std::abs(turn) > 360.0)
+        pose.at("yaw_pitch_roll_deg").refuse("an angle beyond 360 degrees", "degrees are needed");
     scan.angles = {rad_from_deg(turns[0]), rad_from_deg(turns[1]), rad_from_deg(turns[2])};
   }
   return scan;
@@ -76,9 +78,11 @@ std::vector<DesignLine> read_lines(const JsonPlace& place) {
   for (const JsonPlace& one : place.items()) {
     one.only_keys({"name", "offset"});
     lines.push_back({one.at("name").text(), one.at("offset").number_between(-10.0, 10.0, "m")});
-    if (!names.insert(lines.back().name).second) one.refuse("two lines have this name", "every number names its line: rename one");
+    if (!names.insert(lines.back().name).second)
+      one.refuse("two lines have this name", "every number names its line: rename one");
   }
-  if (lines.empty()) place.refuse("at least one line is needed", "for instance {\"name\": \"excavation\", \"offset\": 0.0}");
+  if (lines.empty())
+    place.refuse("at least one line is needed", "for instance {\"name\": \"excavation\", \"offset\": 0.0}");
   return lines;
 }
 
@@ -88,7 +92,8 @@ JobChainage read_chainage(const JsonPlace& place) {
   chainage.from_m = place.at("from").number();
   chainage.to_m = place.at("to").number();
   if (place.has("interval")) chainage.interval_m = place.at("interval").number_between(0.01, 1e5, "m");
-  if (!(chainage.to_m > chainage.from_m)) place.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
+  if (!(chainage.to_m > chainage.from_m))
+    place.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
   if ((chainage.to_m - chainage.from_m) / chainage.interval_m > 100000.0)
     place.refuse("more than 100,000 sections", "use a larger interval");
   return chainage;
@@ -103,7 +108,8 @@ std::vector<JobRound> read_rounds(const JsonPlace& place) {
     static_cast<void>(one.at("number").whole_number());
     round.from_m = one.at("from").number();
     round.to_m = one.at("to").number();
-    if (!(round.to_m > round.from_m)) one.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
+    if (!(round.to_m > round.from_m))
+      one.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
     if (one.has("drilled")) round.drilled_m = one.at("drilled").number_between(0.1, 30.0, "m");
     rounds.push_back(round);
   }
@@ -122,12 +128,12 @@ Job read_job(const fs::path& file) {
   const json root = parse_json_file(file);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const JsonPlace place(root, file.string());
-  place.only_keys({"adit", "name", "client", "surveyor", "scans", "control", "targets", "alignment", "alignment_name", "profile",
-                   "lines", "chainage", "rounds", "options"});
+  place.only_keys({"adit", "name", "client", "surveyor", "scans", "control", "targets", "alignment", "alignment_name",
+                   "profile", "lines", "chainage", "rounds", "options"});
   if (place.at("adit").whole_number() != 1)
     place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
   Job job;
-  job.name = place.text_or("name", folder.filename().string());
+  job.name = place.text_or("name", fs::weakly_canonical(folder).filename().string());
   job.client = place.text_or("client", "");
   job.surveyor = place.text_or("surveyor", "");
   for (const JsonPlace& scan : place.at("scans").items()) job.scans.push_back(read_scan(scan, folder));
@@ -135,7 +141,8 @@ Job read_job(const fs::path& file) {
   check_names(job, place.at("scans"));
   if (place.has("control")) job.control = existing_file(place.at("control"), folder);
   if (place.has("targets")) job.targets = existing_file(place.at("targets"), folder);
-  if (!job.targets.empty() && job.control.empty()) place.refuse("\"targets\" without \"control\"", "name the control file, too");
+  if (!job.targets.empty() && job.control.empty())
+    place.refuse("\"targets\" without \"control\"", "name the control file, too");
   if (place.has("alignment")) job.alignment = existing_file(place.at("alignment"), folder);
   job.alignment_name = place.text_or("alignment_name", "");
   if (place.has("profile")) job.profiles = read_profiles(place.at("profile"), folder);
@@ -182,7 +189,8 @@ std::string job_text(const Job& job) {
   }
   for (const DesignLine& line : job.lines) root["lines"].push_back({{"name", line.name}, {"offset", line.offset_m}});
   if (job.chainage)
-    root["chainage"] = {{"from", job.chainage->from_m}, {"to", job.chainage->to_m}, {"interval", job.chainage->interval_m}};
+    root["chainage"] = {
+        {"from", job.chainage->from_m}, {"to", job.chainage->to_m}, {"interval", job.chainage->interval_m}};
   for (const JobRound& round : job.rounds) {
     nlohmann::ordered_json one{{"number", round.number}, {"from", round.from_m}, {"to", round.to_m}};
     if (round.drilled_m > 0.0) one["drilled"] = round.drilled_m;

@@ -84,7 +84,9 @@ void JsonPlace::only_keys(std::initializer_list<const char*> known) const {
   }
 }
 
-bool JsonPlace::has(const std::string& key) const { return value_->is_object() && value_->contains(key); }
+bool JsonPlace::has(const std::string& key) const {
+  return value_->is_object() && value_->contains(key);
+}
 
 JsonPlace JsonPlace::at(const std::string& key) const {
   if (!value_->is_object()) refuse("an object { } is needed, found " + found(), "see docs/formats.md");
@@ -109,7 +111,8 @@ std::vector<std::string> JsonPlace::keys() const {
 }
 
 double JsonPlace::number() const {
-  if (!value_->is_number()) refuse("a number is needed, found " + found(), "write it without quotes, with a decimal point");
+  if (!value_->is_number())
+    refuse("a number is needed, found " + found(), "write it without quotes, with a decimal point");
   const double number = value_->get<double>();
   if (!std::isfinite(number)) refuse("the number is too large", "check its unit");
   return number;
@@ -118,14 +121,15 @@ double JsonPlace::number() const {
 double JsonPlace::number_between(double least, double most, const std::string& unit) const {
   const double value = number();
   if (value < least || value > most)
-    refuse("out of range, found " + found(),
-           "a value from " + short_number(least) + " to " + short_number(most) + (unit.empty() ? "" : " " + unit) + " is needed");
+    refuse("out of range, found " + found(), "a value from " + short_number(least) + " to " + short_number(most) +
+                                                 (unit.empty() ? "" : " " + unit) + " is needed");
   return value;
 }
 
 std::int64_t JsonPlace::whole_number() const {
   if (!value_->is_number_integer()) refuse("a whole number is needed, found " + found(), "write it without quotes");
-  if (value_->is_number_unsigned() && value_->get<std::uint64_t>() > (1ULL << 62)) refuse("the number is too large", "check it");
+  if (value_->is_number_unsigned() && value_->get<std::uint64_t>() > (1ULL << 62))
+    refuse("the number is too large", "check it");
   return value_->get<std::int64_t>();
 }
 
@@ -142,7 +146,8 @@ bool JsonPlace::yes_or_no() const {
 std::vector<double> JsonPlace::numbers(std::size_t count) const {
   const auto places = items();
   if (places.size() != count)
-    refuse(std::to_string(count) + " numbers are needed, found " + std::to_string(places.size()), "see docs/formats.md");
+    refuse(std::to_string(count) + " numbers are needed, found " + std::to_string(places.size()),
+           "see docs/formats.md");
   std::vector<double> values;
   for (const auto& place : places) values.push_back(place.number());
   return values;

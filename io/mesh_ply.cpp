@@ -16,7 +16,8 @@ constexpr std::size_t point_size = 3 * sizeof(double) + sizeof(float);
 constexpr std::size_t face_size = 1 + 3 * sizeof(std::uint32_t);
 
 std::string header(std::size_t points, std::size_t triangles) {
-  return "ply\nformat binary_little_endian 1.0\ncomment Adit: surface in site coordinates, deviation outwards positive [m]\n"
+  return "ply\nformat binary_little_endian 1.0\ncomment Adit: surface in site coordinates, deviation outwards positive "
+         "[m]\n"
          "element vertex " +
          std::to_string(points) +
          "\nproperty double x\nproperty double y\nproperty double z\nproperty float deviation\nelement face " +
@@ -82,7 +83,8 @@ MeshFile read_mesh_ply(const std::filesystem::path& path, const Eigen::Vector3d&
     std::array<std::uint32_t, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle[k] = little<std::uint32_t>(at + 1 + 4 * k);
-      if (triangle[k] >= points) throw Error("a triangle names a point that is not there", file.name(), "run the job again");
+      if (triangle[k] >= points)
+        throw Error("a triangle names a point that is not there", file.name(), "run the job again");
     }
     result.mesh.triangles.push_back(triangle);
   }

@@ -62,7 +62,9 @@ class OptionsToJson {
   void number(const char* name, double& value, const char*, double, double, const char*) { json[name] = value; }
   void count(const char* name, int& value, const char*, int, int, const char*) { json[name] = value; }
   void flag(const char* name, bool& value, const char*) { json[name] = value; }
-  void choice(const char* name, std::string& value, std::initializer_list<const char*>, const char*) { json[name] = value; }
+  void choice(const char* name, std::string& value, std::initializer_list<const char*>, const char*) {
+    json[name] = value;
+  }
   nlohmann::json json = nlohmann::json::object();
 };
 

@@ -10,7 +10,9 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json number(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
 
 json rows(const Pose& pose) {
   json values = json::array();
@@ -32,7 +34,9 @@ json sigma_mdeg(const PoseSigma& sigma) {
 json findings_json(const Findings& findings) {
   json list = json::array();
   for (const Finding& f : findings) {
-    const char* severity = f.severity == Severity::note ? "note" : f.severity == Severity::warning ? "warning" : "decision";
+    const char* severity = f.severity == Severity::note      ? "note"
+                           : f.severity == Severity::warning ? "warning"
+                                                             : "decision";
     list.push_back({{"severity", severity}, {"subject", f.subject}, {"words", f.words}, {"mend", f.mend}});
   }
   return list;
@@ -70,7 +74,10 @@ json registration_json(const Results& results) {
                             {"used", pair.used}});
   out["control"] = json::array();
   for (const ControlResidual& c : registration.control)
-    out["control"].push_back({{"scan", c.scan}, {"id", c.id}, {"residual_mm", {1e3 * c.residual_m.x(), 1e3 * c.residual_m.y(), 1e3 * c.residual_m.z()}}});
+    out["control"].push_back(
+        {{"scan", c.scan},
+         {"id", c.id},
+         {"residual_mm", {1e3 * c.residual_m.x(), 1e3 * c.residual_m.y(), 1e3 * c.residual_m.z()}}});
   out["control_rms_mm"] = 1e3 * registration.control_rms_m;
   return out;
 }
@@ -114,7 +121,8 @@ json amounts_json(const VolumeAmounts& amounts) {
 }
 
 json volume_json(const Volume& volume) {
-  json one{{"line", volume.line}, {"line_offset_m", volume.line_offset_m}, {"from", volume.from_m}, {"to", volume.to_m}};
+  json one{
+      {"line", volume.line}, {"line_offset_m", volume.line_offset_m}, {"from", volume.from_m}, {"to", volume.to_m}};
   add_members(one, amounts_json(volume.slices));
   one["sigma_m3"] = volume.sigma_excavated_m3;
   one["sigma_overbreak_m3"] = volume.sigma_overbreak_m3;

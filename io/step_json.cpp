@@ -17,7 +17,8 @@ struct adl_serializer<Eigen::Matrix<double, Rows, Columns>> {
   }
   static void from_json(const json& in, Eigen::Matrix<double, Rows, Columns>& matrix) {
     if (static_cast<Eigen::Index>(in.size()) != matrix.size()) throw adit::Error("a matrix of another size");
-    for (Eigen::Index i = 0; i < matrix.size(); ++i) matrix.data()[i] = in.at(static_cast<std::size_t>(i)).get<double>();
+    for (Eigen::Index i = 0; i < matrix.size(); ++i)
+      matrix.data()[i] = in.at(static_cast<std::size_t>(i)).get<double>();
   }
 };
 
@@ -31,15 +32,17 @@ struct adl_serializer<adit::Pose> {
 
 namespace adit {
 
-NLOHMANN_JSON_SERIALIZE_ENUM(Severity, {{Severity::note, "note"}, {Severity::warning, "warning"}, {Severity::decision, "decision"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(Severity, {{Severity::note, "note"},
+                                        {Severity::warning, "warning"},
+                                        {Severity::decision, "decision"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, severity, subject, words, mend)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InputRecord, file, sha256, points)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ProjectOrigin, position)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImportedScan, name, offset, points, no_returns)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImportResult, inputs, scans, origin, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PoseSigma, along_m, across_m, up_m, roll_rad, pitch_rad, yaw_rad)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairResult, source, target, target_from_source, overlap, rms_m, median_m, median_distance_m,
-                                   within_6mm, sigma, undetermined, used, information)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairResult, source, target, target_from_source, overlap, rms_m, median_m,
+                                   median_distance_m, within_6mm, sigma, undetermined, used, information)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlacedScan, name, placed, local_from_scan, sigma, placed_by, undetermined)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlResidual, scan, id, residual_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RegistrationResult, accepted, scans, pairs, control, control_rms_m, findings)
@@ -49,8 +52,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Volume, line, line_offset_m, from_m, to_m, sl
                                    interpolated_m2, unseen_m2, closure_m3)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RoundVolume, number, drilled_m, volume)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeResult, lines, rounds, findings)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshSummary, points, triangles, edges, boundary_loops, components, area_m2, mean_edge_m,
-                                   longest_loop_m, holes_m, mean_deviation_m, sigma_deviation_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshSummary, points, triangles, edges, boundary_loops, components, area_m2,
+                                   mean_edge_m, longest_loop_m, holes_m, mean_deviation_m, sigma_deviation_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SurfaceResult, mesh, findings)
 
 }  // namespace adit
@@ -87,7 +90,9 @@ void swap_numbers(SurfaceResult& result, bool writing) {
 
 }  // namespace
 
-std::string step_text(const ImportResult& result) { return nlohmann::json(result).dump(1); }
+std::string step_text(const ImportResult& result) {
+  return nlohmann::json(result).dump(1);
+}
 
 std::string step_text(const RegistrationResult& result) {
   RegistrationResult copy = result;
@@ -109,9 +114,13 @@ std::string step_text(const ProfileResult& result) {
       .dump(1);
 }
 
-std::string step_text(const VolumeResult& result) { return nlohmann::json(result).dump(1); }
+std::string step_text(const VolumeResult& result) {
+  return nlohmann::json(result).dump(1);
+}
 
-void read_step_text(const std::string& text, ImportResult& result) { read(text, result); }
+void read_step_text(const std::string& text, ImportResult& result) {
+  read(text, result);
+}
 
 void read_step_text(const std::string& text, RegistrationResult& result) {
   read(text, result);
@@ -136,6 +145,8 @@ void read_step_text(const std::string& text, ProfileResult& result) {
   }
 }
 
-void read_step_text(const std::string& text, VolumeResult& result) { read(text, result); }
+void read_step_text(const std::string& text, VolumeResult& result) {
+  read(text, result);
+}
 
 }  // namespace adit::io

@@ -7,7 +7,8 @@ namespace adit::io {
 
 std::string read_text_file(const std::filesystem::path& path) {
   const InputFile file(path);
-  if (file.size() > (1U << 28)) throw Error("the file is larger than 256 MiB", file.name(), "a small text file is needed");
+  if (file.size() > (1U << 28))
+    throw Error("the file is larger than 256 MiB", file.name(), "a small text file is needed");
   return file.beginning(static_cast<std::size_t>(file.size()));
 }
 

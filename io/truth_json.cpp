@@ -48,8 +48,8 @@ Truth read_truth(const std::filesystem::path& file) {
   truth.from_m = place.at("from").number();
   truth.to_m = place.at("to").number();
   const JsonPlace volume = place.at("volume");
-  truth.volume = {volume.at("design_m3").number(), volume.at("excavated_m3").number(), volume.at("overbreak_m3").number(),
-                  volume.at("underbreak_m3").number()};
+  truth.volume = {volume.at("design_m3").number(), volume.at("excavated_m3").number(),
+                  volume.at("overbreak_m3").number(), volume.at("underbreak_m3").number()};
   for (const JsonPlace& one : place.at("sections").items()) {
     TrueSection section;
     section.chainage_m = one.at("chainage").number();

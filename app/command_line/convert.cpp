@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/command_line/command.h"
 #include "core/foundation/error.h"
@@ -36,17 +37,21 @@ Action declare_convert(CLI::App& command) {
     Progress reading = progress.part(0.6, "reading " + arguments->in);
     std::vector<io::ScanData> scans = io::read_scans(arguments->in, arguments->read, reading);
     if (arguments->scan > scans.size())
-      throw Error("there is no scan " + std::to_string(arguments->scan) + "; the file holds " + std::to_string(scans.size()),
-                  arguments->in, "choose another with --scan");
+      throw Error(
+          "there is no scan " + std::to_string(arguments->scan) + "; the file holds " + std::to_string(scans.size()),
+          arguments->in, "choose another with --scan");
     if (arguments->scan > 0) scans = {std::move(scans[arguments->scan - 1])};
     std::size_t points = 0;
     for (const auto& scan : scans) points += scan.cloud.size();
     Progress writing = progress.part(0.4, "writing " + arguments->out);
     io::write_scans(arguments->out, scans, arguments->write, writing);
     if (common.json)
-      std::printf("{\"file\": %s, \"points\": %zu, \"scans\": %zu}\n", ("\"" + arguments->out + "\"").c_str(), points, scans.size());
+      std::printf("%s\n", nlohmann::ordered_json{{"file", arguments->out}, {"points", points}, {"scans", scans.size()}}
+                              .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+                              .c_str());
     else if (!common.quiet)
-      std::printf("%s: %zu points in %zu scan%s\n", arguments->out.c_str(), points, scans.size(), scans.size() == 1 ? "" : "s");
+      std::printf("%s: %zu points in %zu scan%s\n", arguments->out.c_str(), points, scans.size(),
+                  scans.size() == 1 ? "" : "s");
     return exit_good;
   };
 }

@@ -23,10 +23,18 @@ Action declare_demo(CLI::App& command) {
   auto arguments = std::make_shared<Arguments>();
   command.add_option("DIR", arguments->folder, "folder to make the job in")->required();
   command.add_option("--seed", arguments->demo.seed, "every choice of chance follows from it")->capture_default_str();
-  command.add_option("--stations", arguments->demo.stations, "number of scans")->check(CLI::Range(1, 40))->capture_default_str();
-  command.add_option("--points", arguments->demo.points, "pulses a scan")->check(CLI::Range(20000, 200000000))->capture_default_str();
-  command.add_option("--guess-error-m", arguments->demo.guess_error_m, "how far the guesses are off")->check(CLI::Range(0.0, 20.0))->capture_default_str();
-  command.add_option("--guess-error-deg", arguments->demo.guess_error_deg, "how far the guesses are turned")->check(CLI::Range(0.0, 180.0))->capture_default_str();
+  command.add_option("--stations", arguments->demo.stations, "number of scans")
+      ->check(CLI::Range(1, 40))
+      ->capture_default_str();
+  command.add_option("--points", arguments->demo.points, "pulses a scan")
+      ->check(CLI::Range(20000, 200000000))
+      ->capture_default_str();
+  command.add_option("--guess-error-m", arguments->demo.guess_error_m, "how far the guesses are off")
+      ->check(CLI::Range(0.0, 20.0))
+      ->capture_default_str();
+  command.add_option("--guess-error-deg", arguments->demo.guess_error_deg, "how far the guesses are turned")
+      ->check(CLI::Range(0.0, 180.0))
+      ->capture_default_str();
   command.add_flag("--no-control", arguments->no_control, "no control points and targets");
   command.add_flag("--no-run", arguments->no_run, "make the job only");
   return [arguments](const CommonOptions& common, Progress& progress) {
@@ -41,7 +49,9 @@ Action declare_demo(CLI::App& command) {
     options.context.make_gl_context = [] { return render::make_osmesa_context(); };
     Progress running = progress.part(0.7, "running the job");
     const auto state = run_job(arguments->folder, options, running);
-    const std::string text = common.json ? io::results_text(state->results) : common.quiet ? std::string() : summary_text(*state);
+    const std::string text = common.json    ? io::results_text(state->results)
+                             : common.quiet ? std::string()
+                                            : summary_text(*state);
     std::fputs(text.c_str(), stdout);
     return needs_a_person(state->results) ? exit_needs_a_person : exit_good;
   };

@@ -22,7 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
-json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+json numbers(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 json scan_info(const fs::path& file, Progress& progress) {
   const io::ScanFileSummary summary = io::summarise_scan_file(file, progress);
@@ -86,7 +88,11 @@ json job_info(const fs::path& file, Progress& progress) {
   RunOptions options;
   options.only_take_up = true;
   const auto state = run_job(file, options, progress);
-  json out{{"file", file.string()}, {"format", "job"}, {"name", state->job.name}, {"scans", json::array()}, {"steps", json::object()}};
+  json out{{"file", file.string()},
+           {"format", "job"},
+           {"name", state->job.name},
+           {"scans", json::array()},
+           {"steps", json::object()}};
   for (const JobScan& scan : state->job.scans) out["scans"].push_back(scan.name + " (" + scan.file + ")");
   for (const Step& step : all_steps()) {
     const bool fresh = std::any_of(state->results.timing.begin(), state->results.timing.end(),
@@ -101,7 +107,8 @@ std::string table_header(const fs::path& file) {
   io::LineReader lines(file);
   if (!lines.next_with_text()) return {};
   std::string header(lines.line());
-  std::transform(header.begin(), header.end(), header.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(header.begin(), header.end(), header.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return header;
 }
 
@@ -119,7 +126,8 @@ json table_info(const fs::path& file, Progress& progress) {
 json info(const fs::path& file, Progress& progress) {
   if (!fs::exists(file)) throw Error("there is no such file", file.string(), "check the path");
   std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (fs::is_directory(file) || ending == ".json") return job_info(file, progress);
   if (ending == ".xml" || ending == ".landxml") return landxml_info(file);
   if (ending == ".dxf") return profile_info(file);

@@ -25,7 +25,9 @@ Action declare_run(CLI::App& command, const std::string& last_step) {
     options.last_step = last_step;
     options.context.make_gl_context = [] { return render::make_osmesa_context(); };
     const auto state = run_job(arguments->job, options, progress);
-    const std::string text = common.json ? io::results_text(state->results) : common.quiet ? std::string() : summary_text(*state);
+    const std::string text = common.json    ? io::results_text(state->results)
+                             : common.quiet ? std::string()
+                                            : summary_text(*state);
     std::fputs(text.c_str(), stdout);
     return needs_a_person(state->results) ? exit_needs_a_person : exit_good;
   };

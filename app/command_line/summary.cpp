@@ -22,27 +22,31 @@ void add_registration(std::string& text, const Results& results) {
   const RegistrationResult& registration = results.registration;
   if (registration.scans.empty()) return;
   add(text, "\nRegistration: %s\n", registration.accepted ? "accepted" : "NOT accepted");
-  add(text, "  %-12s %-20s %14s %14s %10s   sigma along/across/up\n", "scan", "placed by", "east", "north", "elevation");
+  add(text, "  %-12s %-20s %14s %14s %10s   sigma along/across/up\n", "scan", "placed by", "east", "north",
+      "elevation");
   for (std::size_t i = 0; i < registration.scans.size(); ++i) {
     const PlacedScan& scan = registration.scans[i];
     const Eigen::Vector3d p = site_from_scan(results, i).translation();
-    add(text, "  %-12s %-20s %14.3f %14.3f %10.3f   %.1f / %.1f / %.1f mm\n", scan.name.c_str(), scan.placed_by.c_str(), p.x(), p.y(),
-        p.z(), 1e3 * scan.sigma.along_m, 1e3 * scan.sigma.across_m, 1e3 * scan.sigma.up_m);
+    add(text, "  %-12s %-20s %14.3f %14.3f %10.3f   %.1f / %.1f / %.1f mm\n", scan.name.c_str(), scan.placed_by.c_str(),
+        p.x(), p.y(), p.z(), 1e3 * scan.sigma.along_m, 1e3 * scan.sigma.across_m, 1e3 * scan.sigma.up_m);
   }
   for (const PairResult& pair : registration.pairs)
-    add(text, "  pair %s - %s: overlap %.0f %%, median residual %.1f mm, median distance %.1f mm%s\n", pair.source.c_str(),
-        pair.target.c_str(), 100.0 * pair.overlap, 1e3 * pair.median_m, 1e3 * pair.median_distance_m, pair.used ? "" : " (not used)");
+    add(text, "  pair %s - %s: overlap %.0f %%, median residual %.1f mm, median distance %.1f mm%s\n",
+        pair.source.c_str(), pair.target.c_str(), 100.0 * pair.overlap, 1e3 * pair.median_m,
+        1e3 * pair.median_distance_m, pair.used ? "" : " (not used)");
   if (!registration.control.empty())
-    add(text, "  control: %zu targets, rms %.1f mm per axis\n", registration.control.size(), 1e3 * registration.control_rms_m);
+    add(text, "  control: %zu targets, rms %.1f mm per axis\n", registration.control.size(),
+        1e3 * registration.control_rms_m);
 }
 
 void add_volumes(std::string& text, const VolumeResult& result) {
   for (const Volume& volume : result.lines) {
-    add(text, "\nVolumes against \"%s\", chainage %.2f to %.2f (coverage %.1f %%, +- is two sigma)\n", volume.line.c_str(), volume.from_m,
-        volume.to_m, 100.0 * volume.coverage);
-    add(text, "  design %.2f m3   excavated %.2f +- %.2f   overbreak %.2f +- %.2f   underbreak %.2f +- %.2f\n", volume.slices.design_m3,
-        volume.slices.excavated_m3, 2.0 * volume.sigma_excavated_m3, volume.slices.overbreak_m3, 2.0 * volume.sigma_overbreak_m3,
-        volume.slices.underbreak_m3, 2.0 * volume.sigma_underbreak_m3);
+    add(text, "\nVolumes against \"%s\", chainage %.2f to %.2f (coverage %.1f %%, +- is two sigma)\n",
+        volume.line.c_str(), volume.from_m, volume.to_m, 100.0 * volume.coverage);
+    add(text, "  design %.2f m3   excavated %.2f +- %.2f   overbreak %.2f +- %.2f   underbreak %.2f +- %.2f\n",
+        volume.slices.design_m3, volume.slices.excavated_m3, 2.0 * volume.sigma_excavated_m3,
+        volume.slices.overbreak_m3, 2.0 * volume.sigma_overbreak_m3, volume.slices.underbreak_m3,
+        2.0 * volume.sigma_underbreak_m3);
   }
 }
 
@@ -70,15 +74,19 @@ std::string summary_text(const JobState& state) {
   if (results.volume) add_volumes(text, *results.volume);
   if (results.truth) add_truth(text, *results.truth);
   for (const Finding& finding : all_findings(results)) {
-    const char* sign = finding.severity == Severity::decision ? "TO DECIDE" : finding.severity == Severity::warning ? "warning" : "note";
+    const char* sign = finding.severity == Severity::decision  ? "TO DECIDE"
+                       : finding.severity == Severity::warning ? "warning"
+                                                               : "note";
     if (finding.severity != Severity::note)
-      text += "\n" + std::string(sign) + ": " + finding.subject + ": " + finding.words + (finding.mend.empty() ? "" : "; " + finding.mend);
+      text += "\n" + std::string(sign) + ": " + finding.subject + ": " + finding.words +
+              (finding.mend.empty() ? "" : "; " + finding.mend);
   }
   text += "\n";
   for (const StepTime& time : results.timing)
     add(text, "%s%s %.1f s", &time == &results.timing.front() ? "\nTime: " : ", ", time.step.c_str(), time.seconds);
   add(text, "; peak memory %.0f MiB\n", static_cast<double>(results.peak_memory_bytes) / 1048576.0);
-  if (std::filesystem::exists(state.out / "report.pdf") && !results.timing.empty() && results.timing.back().step == "report")
+  if (std::filesystem::exists(state.out / "report.pdf") && !results.timing.empty() &&
+      results.timing.back().step == "report")
     text += "Report: " + (state.out / "report.pdf").string() + "\n";
   return text;
 }

@@ -7,9 +7,14 @@
 namespace adit::app {
 
 TerminalProgress::TerminalProgress(bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), start_(Clock::now()), last_(start_ - std::chrono::seconds(1)) {}
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_(start_ - std::chrono::seconds(1)) {}
 
-TerminalProgress::~TerminalProgress() { clear(); }
+TerminalProgress::~TerminalProgress() {
+  clear();
+}
 
 void TerminalProgress::clear() {
   if (drawn_) std::fputs("\r\x1b[K", stderr);
@@ -32,8 +37,8 @@ void TerminalProgress::report(double fraction, const std::string& message) {
   char left[40] = "";
   if (fraction > 0.02) std::snprintf(left, sizeof left, ", about %.0f s left", seconds * (1.0 - fraction) / fraction);
   const int full = static_cast<int>(24.0 * fraction);
-  std::fprintf(stderr, "\r\x1b[K[%.*s%.*s] %3.0f %%  %s%s", full, "========================", 24 - full, "                        ",
-               100.0 * fraction, message.c_str(), left);
+  std::fprintf(stderr, "\r\x1b[K[%.*s%.*s] %3.0f %%  %s%s", full, "========================", 24 - full,
+               "                        ", 100.0 * fraction, message.c_str(), left);
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -19,7 +19,8 @@ std::filesystem::path store_file(const JobState& state, std::size_t scan) {
 
 std::string depends_on(const JobState& state) {
   std::string text = "import 1";
-  for (const JobScan& scan : state.job.scans) text += "|" + scan.name + "|" + scan.file + "|" + state.input_sha256.at(scan.file);
+  for (const JobScan& scan : state.job.scans)
+    text += "|" + scan.name + "|" + scan.file + "|" + state.input_sha256.at(scan.file);
   text += "|" + state.job.control + "|" + state.job.alignment;
   return text;
 }
@@ -38,7 +39,8 @@ void import_scan(JobState& state, std::size_t index, Progress& progress) {
   io::ScanData data = only_scan(state, scan, reading);
   data.name = scan.name;
   if (data.offset.isZero()) data.no_returns += remove_no_returns(data.cloud);
-  if (data.cloud.empty()) throw Error("no point is left after taking out pulses without echo", scan.file, "check the export");
+  if (data.cloud.empty())
+    throw Error("no point is left after taking out pulses without echo", scan.file, "check the export");
   Progress writing = progress.part(0.4, "storing " + scan.name);
   io::write_point_store(store_file(state, index), std::move(data), state.input_sha256.at(scan.file), writing);
 }
@@ -47,7 +49,8 @@ void open_stores(JobState& state) {
   state.stores.clear();
   for (std::size_t i = 0; i < state.job.scans.size(); ++i) {
     auto store = std::make_shared<io::PointStore>(store_file(state, i));
-    if (store->source_sha256() != state.input_sha256.at(state.job.scans[i].file) || store->name() != state.job.scans[i].name)
+    if (store->source_sha256() != state.input_sha256.at(state.job.scans[i].file) ||
+        store->name() != state.job.scans[i].name)
       throw Error("the stored points are those of another file", store_file(state, i).string(), "run the import again");
     state.stores.push_back(std::move(store));
   }
@@ -91,7 +94,8 @@ void summarise(JobState& state) {
 
 void make_design(JobState& state) {
   if (state.has_design())
-    state.design = DesignTunnel(*state.alignment, state.profiles, state.job.lines).relative_to(state.results.import.origin.position);
+    state.design = DesignTunnel(*state.alignment, state.profiles, state.job.lines)
+                       .relative_to(state.results.import.origin.position);
 }
 
 void run(JobState& state, const StepContext&, Progress& progress) {
@@ -112,10 +116,14 @@ void take_up(JobState& state) {
   make_design(state);
 }
 
-bool wanted(const JobState&) { return true; }
+bool wanted(const JobState&) {
+  return true;
+}
 
 }  // namespace
 
-Step import_step() { return {"import", "importing the scans", 0.20, wanted, depends_on, run, take_up}; }
+Step import_step() {
+  return {"import", "importing the scans", 0.20, wanted, depends_on, run, take_up};
+}
 
 }  // namespace adit::app

@@ -14,7 +14,9 @@
 namespace adit::app {
 namespace {
 
-bool wanted(const JobState& state) { return state.has_design(); }
+bool wanted(const JobState& state) {
+  return state.has_design();
+}
 
 std::string depends_on(const JobState& state) {
   std::string text = "profile 1|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
@@ -22,7 +24,8 @@ std::string depends_on(const JobState& state) {
     text += "|" + state.input_sha256.at(profile.file) + profile.layer + short_number(profile.from_m);
   for (const DesignLine& line : state.job.lines) text += "|" + line.name + short_number(line.offset_m);
   const JobChainage stretch = state.stretch();
-  text += "|" + short_number(stretch.from_m) + "|" + short_number(stretch.to_m) + "|" + short_number(stretch.interval_m);
+  text +=
+      "|" + short_number(stretch.from_m) + "|" + short_number(stretch.to_m) + "|" + short_number(stretch.interval_m);
   return text + "|" + options_text(state.job.options.profiling);
 }
 
@@ -52,7 +55,8 @@ void report_weak_coverage(ProfileResult& result) {
   }
   if (weak == 0) return;
   char words[160];
-  std::snprintf(words, sizeof words, "%zu of %zu sections were seen to less than 80 %%; the least is %.0f %% at chainage %.2f", weak,
+  std::snprintf(words, sizeof words,
+                "%zu of %zu sections were seen to less than 80 %%; the least is %.0f %% at chainage %.2f", weak,
                 result.sections.size(), 100.0 * worst, worst_chainage);
   result.findings.push_back({Severity::warning, "sections", words, "add a scan there"});
 }
@@ -86,6 +90,8 @@ void take_up(JobState& state) {
 
 }  // namespace
 
-Step profile_step() { return {"profile", "profiling", 0.12, wanted, depends_on, run, take_up}; }
+Step profile_step() {
+  return {"profile", "profiling", 0.12, wanted, depends_on, run, take_up};
+}
 
 }  // namespace adit::app

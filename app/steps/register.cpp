@@ -8,7 +8,9 @@
 namespace adit::app {
 namespace {
 
-bool wanted(const JobState&) { return true; }
+bool wanted(const JobState&) {
+  return true;
+}
 
 std::string depends_on(const JobState& state) {
   std::string text = "register 1|" + state.keys.at("import");
@@ -81,6 +83,8 @@ void take_up(JobState& state) {
 
 }  // namespace
 
-Step register_step() { return {"register", "registering the scans", 0.35, wanted, depends_on, run, take_up}; }
+Step register_step() {
+  return {"register", "registering the scans", 0.35, wanted, depends_on, run, take_up};
+}
 
 }  // namespace adit::app

@@ -15,10 +15,13 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t overview_points = 120000;  // a scan
 
-bool wanted(const JobState&) { return true; }
+bool wanted(const JobState&) {
+  return true;
+}
 
 std::string depends_on(const JobState& state) {
-  std::string text = "report 1|" + state.results.version + "|" + state.job.name + "|" + state.job.client + "|" + state.job.surveyor;
+  std::string text =
+      "report 1|" + state.results.version + "|" + state.job.name + "|" + state.job.client + "|" + state.job.surveyor;
   for (const auto& [step, key] : state.keys) text += "|" + step + key;
   const auto truth = state.input_sha256.find("truth.json");
   return text + (truth == state.input_sha256.end() ? "" : "|" + truth->second);
@@ -27,7 +30,8 @@ std::string depends_on(const JobState& state) {
 /// Today, or the day of SOURCE_DATE_EPOCH for reports that must come out the same.
 std::string report_date() {
   std::time_t now = std::time(nullptr);
-  if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH")) now = static_cast<std::time_t>(std::strtoll(fixed, nullptr, 10));
+  if (const char* fixed = std::getenv("SOURCE_DATE_EPOCH"))
+    now = static_cast<std::time_t>(std::strtoll(fixed, nullptr, 10));
   std::tm utc{};
   gmtime_r(&now, &utc);
   char text[16];
@@ -39,7 +43,8 @@ render::OverviewCloud overview(const JobState& state, std::size_t scan) {
   render::OverviewCloud cloud;
   cloud.name = state.job.scans[scan].name;
   const io::PointStore& store = *state.stores[scan];
-  const double share = std::min(1.0, static_cast<double>(overview_points) / static_cast<double>(std::max<std::uint64_t>(store.points(), 1)));
+  const double share = std::min(
+      1.0, static_cast<double>(overview_points) / static_cast<double>(std::max<std::uint64_t>(store.points(), 1)));
   const Pose& pose = state.results.registration.scans[scan].local_from_scan;
   for (std::size_t tile = 0; tile < store.tile_count(); ++tile) {
     const auto prefix = static_cast<std::size_t>(share * static_cast<double>(store.point_count(tile)));
@@ -74,9 +79,11 @@ void run(JobState& state, const StepContext& context, Progress& progress) {
   if (!context.make_gl_context) throw Error("this program has no way to draw 3D pictures", "report", "use adit report");
   const auto gl = context.make_gl_context();
   const render::ReportFiles files = render::draw_report(content_of(state), *gl, progress);
+  fs::remove_all(state.out / "report");  // pictures of sections that are no longer cut
   fs::create_directories(state.out / "report");
   for (const auto& picture : files.pictures)
-    io::write_file_atomically(picture.name == "map.png" ? state.out / picture.name : state.out / "report" / picture.name, picture.png);
+    io::write_file_atomically(
+        picture.name == "map.png" ? state.out / picture.name : state.out / "report" / picture.name, picture.png);
   io::write_file_atomically(state.out / "report.pdf", files.pdf);
   io::write_file_atomically(step_file(state, "report"), "{}\n");
 }
@@ -88,6 +95,8 @@ void take_up(JobState& state) {
 
 }  // namespace
 
-Step report_step() { return {"report", "drawing the report", 0.12, wanted, depends_on, run, take_up}; }
+Step report_step() {
+  return {"report", "drawing the report", 0.12, wanted, depends_on, run, take_up};
+}
 
 }  // namespace adit::app

@@ -16,12 +16,18 @@ namespace {
 
 constexpr double beside_m = 3.0;  // points farther outside the design are not of this tunnel
 
-bool wanted(const JobState&) { return true; }
+bool wanted(const JobState&) {
+  return true;
+}
 
 std::string depends_on(const JobState& state) {
+  const ProfilingOptions& limits = state.job.options.profiling;
   std::string text = "surface 1|" + state.keys.at("register") + "|" + options_text(state.job.options.surface);
+  for (const double limit : {limits.reach_in_m, limits.least_range_m, limits.most_range_m})
+    text += "|" + short_number(limit);
   if (!state.has_design()) return text;
-  for (const JobProfile& profile : state.job.profiles) text += "|" + state.input_sha256.at(profile.file) + profile.layer;
+  for (const JobProfile& profile : state.job.profiles)
+    text += "|" + state.input_sha256.at(profile.file) + profile.layer + short_number(profile.from_m);
   const JobChainage stretch = state.stretch();
   return text + "|" + short_number(stretch.from_m) + "|" + short_number(stretch.to_m);
 }
@@ -43,7 +49,8 @@ bool belongs(const JobState& state, const Eigen::Vector3d& point) {
   return deviation < beside_m && deviation > -state.job.options.profiling.reach_in_m;
 }
 
-std::vector<Eigen::Vector3d> surface_points(const JobState& state, const std::vector<PlacedTiles>& scans, Progress& progress) {
+std::vector<Eigen::Vector3d> surface_points(const JobState& state, const std::vector<PlacedTiles>& scans,
+                                            Progress& progress) {
   const ProfilingOptions& limits = state.job.options.profiling;
   const double spacing = state.job.options.surface.spacing_m;
   PointCloud all;
@@ -103,6 +110,8 @@ void take_up(JobState& state) {
 
 }  // namespace
 
-Step surface_step() { return {"surface", "making the surface", 0.15, wanted, depends_on, run, take_up}; }
+Step surface_step() {
+  return {"surface", "making the surface", 0.15, wanted, depends_on, run, take_up};
+}
 
 }  // namespace adit::app

@@ -11,13 +11,15 @@
 namespace adit::app {
 namespace {
 
-bool wanted(const JobState& state) { return state.has_design(); }
+bool wanted(const JobState& state) {
+  return state.has_design();
+}
 
 std::string depends_on(const JobState& state) {
   std::string text = "volume 1|" + state.keys.at("profile");
   for (const JobRound& round : state.job.rounds)
-    text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) + "," +
-            short_number(round.drilled_m);
+    text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +
+            "," + short_number(round.drilled_m);
   return text;
 }
 
@@ -27,7 +29,8 @@ void add_round(JobState& state, const JobRound& round, VolumeResult& result, Pro
   const double to = std::min(round.to_m, map.to_m);
   const std::string subject = "round " + std::to_string(round.number);
   if (to - from < 0.01) {
-    result.findings.push_back({Severity::warning, subject, "lies outside the profiled chainage and has no volumes", "extend \"chainage\""});
+    result.findings.push_back(
+        {Severity::warning, subject, "lies outside the profiled chainage and has no volumes", "extend \"chainage\""});
     return;
   }
   if (to - from < round.to_m - round.from_m - 1e-6) {
@@ -53,9 +56,10 @@ void run(JobState& state, const StepContext&, Progress& progress) {
                                           state.results.registration.scans, state.job.options.profiling, part));
     const Volume& volume = result.lines.back();
     if (std::abs(volume.closure_m3) > 1e-3)
-      result.findings.push_back({Severity::decision, "volume " + line.name,
-                                 "excavated less design differs from over less under by " + short_number(volume.closure_m3) + " m3",
-                                 "report this as a fault of Adit"});
+      result.findings.push_back(
+          {Severity::decision, "volume " + line.name,
+           "excavated less design differs from over less under by " + short_number(volume.closure_m3) + " m3",
+           "report this as a fault of Adit"});
   }
   for (const JobRound& round : state.job.rounds) {
     Progress part = progress.part(share, "round " + std::to_string(round.number));
@@ -73,6 +77,8 @@ void take_up(JobState& state) {
 
 }  // namespace
 
-Step volume_step() { return {"volume", "computing volumes", 0.06, wanted, depends_on, run, take_up}; }
+Step volume_step() {
+  return {"volume", "computing volumes", 0.06, wanted, depends_on, run, take_up};
+}
 
 }  // namespace adit::app

@@ -1,5 +1,6 @@
 #pragma once
-// Something a person must see. Findings live in the results beside the number they concern; they are never printed here.
+// Something a person must see. Findings live in the results beside the number they concern; they are never printed
+// here.
 
 #include <string>
 #include <vector>

@@ -12,7 +12,8 @@ namespace adit {
 /// machine. Mixing after Steele et al., SplitMix64.
 class Random {
  public:
-  explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : key_(mix(seed ^ mix(stream + 0x9E3779B97F4A7C15ULL))) {}
+  explicit Random(std::uint64_t seed, std::uint64_t stream = 0)
+      : key_(mix(seed ^ mix(stream + 0x9E3779B97F4A7C15ULL))) {}
 
   std::uint64_t bits(std::uint64_t index) const { return mix(key_ + index * 0x9E3779B97F4A7C15ULL); }
 

@@ -22,7 +22,9 @@ NearestNeighbours::~NearestNeighbours() = default;
 NearestNeighbours::NearestNeighbours(NearestNeighbours&&) noexcept = default;
 NearestNeighbours& NearestNeighbours::operator=(NearestNeighbours&&) noexcept = default;
 
-Neighbour NearestNeighbours::nearest(const Eigen::Vector3f& point) const { return k_nearest(point, 1).front(); }
+Neighbour NearestNeighbours::nearest(const Eigen::Vector3f& point) const {
+  return k_nearest(point, 1).front();
+}
 
 std::vector<Neighbour> NearestNeighbours::k_nearest(const Eigen::Vector3f& point, int k) const {
   thread_local std::vector<int> indices;

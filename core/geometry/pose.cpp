@@ -43,7 +43,9 @@ double rotation_between_rad(const Pose& a, const Pose& b) {
   return Eigen::AngleAxisd(Eigen::Matrix3d(a.linear().transpose() * b.linear())).angle();
 }
 
-double distance_between_m(const Pose& a, const Pose& b) { return (a.translation() - b.translation()).norm(); }
+double distance_between_m(const Pose& a, const Pose& b) {
+  return (a.translation() - b.translation()).norm();
+}
 
 bool is_rigid(const Eigen::Matrix4d& matrix) {
   if (!matrix.allFinite()) return false;

@@ -17,7 +17,9 @@ double quantile(std::vector<double> values, double share) {
   return low + (high - low) * (position - static_cast<double>(below));
 }
 
-double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
+double median(std::vector<double> values) {
+  return quantile(std::move(values), 0.5);
+}
 
 double robust_sigma(const std::vector<double>& values) {
   const double centre = median(values);

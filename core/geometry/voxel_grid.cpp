@@ -51,7 +51,11 @@ PointCloud cube_means(std::vector<Keyed>& keyed) {
 PointCloud even_subsample(const PointCloud& cloud, double spacing_m) {
   std::vector<Keyed> keyed(cloud.size());
   parallel_for_each_index(
-      cloud.size(), [&](std::size_t i) { keyed[i] = {cube_key(cloud.points[i], spacing_m), cloud.points[i]}; }, 8192);
+      cloud.size(),
+      [&](std::size_t i) {
+        keyed[i] = {cube_key(cloud.points[i], spacing_m), cloud.points[i]};
+      },
+      8192);
   return cube_means(keyed);
 }
 

@@ -14,6 +14,8 @@ struct ProjectOrigin {
 };
 
 /// The origin nearest to a point: each coordinate rounded to whole metres.
-inline ProjectOrigin origin_near(const Eigen::Vector3d& site) { return {site.array().round().matrix()}; }
+inline ProjectOrigin origin_near(const Eigen::Vector3d& site) {
+  return {site.array().round().matrix()};
+}
 
 }  // namespace adit

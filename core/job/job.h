@@ -17,22 +17,22 @@ namespace adit {
 
 struct JobScan {
   std::string name;
-  std::string file;                              ///< relative to the job's folder
-  std::optional<Eigen::Vector3d> position;       ///< site, guess
+  std::string file;                         ///< relative to the job's folder
+  std::optional<Eigen::Vector3d> position;  ///< site, guess
   YawPitchRoll angles;
 };
 
 struct JobProfile {
   double from_m = 0.0;
   std::string file;
-  std::string layer;                             ///< of a DXF; empty: the only closed line
+  std::string layer;  ///< of a DXF; empty: the only closed line
 };
 
 struct JobRound {
   int number = 0;
   double from_m = 0.0;
   double to_m = 0.0;
-  double drilled_m = 0.0;                        ///< 0 when not stated
+  double drilled_m = 0.0;  ///< 0 when not stated
 };
 
 struct JobChainage {
@@ -60,10 +60,10 @@ struct Job {
   std::string client;
   std::string surveyor;
   std::vector<JobScan> scans;
-  std::string control;                           ///< files; empty: none
+  std::string control;  ///< files; empty: none
   std::string targets;
   std::string alignment;
-  std::string alignment_name;                    ///< when the file holds several
+  std::string alignment_name;  ///< when the file holds several
   std::vector<JobProfile> profiles;
   std::vector<DesignLine> lines{{"excavation", 0.0}};
   std::optional<JobChainage> chainage;

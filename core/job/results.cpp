@@ -6,7 +6,8 @@ namespace adit {
 
 Pose site_from_scan(const Results& results, std::size_t scan) {
   Pose pose = results.registration.scans[scan].local_from_scan;
-  const Eigen::Vector3d offset = scan < results.import.scans.size() ? results.import.scans[scan].offset : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d offset =
+      scan < results.import.scans.size() ? results.import.scans[scan].offset : Eigen::Vector3d::Zero();
   pose.translation() += results.import.origin.position - pose.linear() * offset;
   return pose;
 }

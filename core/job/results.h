@@ -26,7 +26,7 @@ struct ImportedScan {
   std::string name;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< file coordinates = stored point + offset
   std::uint64_t points = 0;
-  std::uint64_t no_returns = 0;                      ///< pulses without an echo, left out
+  std::uint64_t no_returns = 0;  ///< pulses without an echo, left out
 };
 
 struct ImportResult {
@@ -50,7 +50,7 @@ struct ProfileResult {
 };
 
 struct VolumeResult {
-  std::vector<Volume> lines;          ///< one for each design line, the first is the reference
+  std::vector<Volume> lines;  ///< one for each design line, the first is the reference
   std::vector<RoundVolume> rounds;
   Findings findings;
 };
@@ -60,16 +60,16 @@ struct TruthComparison {
   double worst_position_error_m = 0.0;
   double worst_rotation_error_rad = 0.0;
   VolumeAmounts true_volume;
-  double excavated_error = 0.0;       ///< relative
-  double overbreak_error = 0.0;       ///< relative
+  double excavated_error = 0.0;  ///< relative
+  double overbreak_error = 0.0;  ///< relative
   double underbreak_error_m3 = 0.0;
-  double section_area_rms = 0.0;      ///< relative, over all sections
+  double section_area_rms = 0.0;  ///< relative, over all sections
 };
 
 struct StepTime {
   std::string step;
   double seconds = 0.0;
-  bool fresh = false;                 ///< true when nothing had changed and the step did not run
+  bool fresh = false;  ///< true when nothing had changed and the step did not run
 };
 
 struct Results {

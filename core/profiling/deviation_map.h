@@ -36,14 +36,14 @@ class ProfileStretch {
     ProfileCorner corner;
   };
   Profile profile_;
-  std::vector<Wedge> wedges_;        ///< in order of q
+  std::vector<Wedge> wedges_;         ///< in order of q
   std::vector<int> wedge_of_corner_;  ///< index into wedges_ or -1
   double length_m_ = 0.0;
 };
 
 /// How a cell came to its value.
 enum class CellKind : std::uint8_t {
-  unseen = 0,        ///< nobody looked here; carries no value
+  unseen = 0,  ///< nobody looked here; carries no value
   measured = 1,
   interpolated = 2,  ///< between measured cells closer than the gap limit; counted apart
 };

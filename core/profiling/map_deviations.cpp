@@ -10,6 +10,7 @@
 #include "core/foundation/parallel.h"
 #include "core/geometry/statistics.h"
 #include "core/profiling/object_cells.h"
+#include "core/profiling/outline.h"
 #include "core/profiling/profiling.h"
 
 namespace adit {
@@ -31,8 +32,8 @@ std::optional<TileRef> tile_reach(const PlacedTiles& scan, std::size_t index, st
   const double radius = 0.55 * box.diagonal().norm() + 0.1;
   TileRef ref{index, tile, 1e300, -1e300};
   for (int corner = -1; corner < 8; ++corner) {
-    const Eigen::Vector3d at =
-        corner < 0 ? Eigen::Vector3d(box.center()) : Eigen::Vector3d(box.corner(static_cast<BoundingBox::CornerType>(corner)));
+    const Eigen::Vector3d at = corner < 0 ? Eigen::Vector3d(box.center())
+                                          : Eigen::Vector3d(box.corner(static_cast<BoundingBox::CornerType>(corner)));
     if (const auto point = axis.to_tunnel(at)) {
       ref.from_m = std::min(ref.from_m, point->s_m - radius);
       ref.to_m = std::max(ref.to_m, point->s_m + radius);
@@ -99,9 +100,9 @@ struct Mapper {
   }
 };
 
-/// The part of a cell's points (sorted by deviation) that is rock. The outermost band that holds enough of them is rock for
-/// certain: what lies behind it is stray. In front of it a step between two rounds is rock, too, but well inside the
-/// design line only what lies close to that band: the rest is equipment.
+/// The part of a cell's points (sorted by deviation) that is rock. The outermost band that holds enough of them is rock
+/// for certain: what lies behind it is stray. In front of it a step between two rounds is rock, too, but well inside
+/// the design line only what lies close to that band: the rest is equipment.
 std::vector<Entry> rock_points(const Entry* begin, const Entry* end, const ProfilingOptions& options) {
   constexpr float well_inside_m = -0.15F;
   const auto count = static_cast<std::size_t>(end - begin);
@@ -120,8 +121,8 @@ std::vector<Entry> rock_points(const Entry* begin, const Entry* end, const Profi
   return {};
 }
 
-/// Mean over the thickness of the slice: every point stands for the stretch of chainage that is nearest to it, so that the
-/// many points on a step's face weigh no more than the little chainage they cover.
+/// Mean over the thickness of the slice: every point stands for the stretch of chainage that is nearest to it, so that
+/// the many points on a step's face weigh no more than the little chainage they cover.
 MapCell surface_cell(const Entry* begin, const Entry* end, const ProfilingOptions& options) {
   MapCell cell;
   std::vector<Entry> rock = rock_points(begin, end, options);
@@ -167,9 +168,23 @@ DeviationMap empty_map(const std::vector<ProfileStretch>& stretches, double from
   map.step_q_m = options.cell_m;
   for (const auto& stretch : stretches) map.columns = std::max(map.columns, stretch.columns(map.step_q_m));
   if (map.rows * map.columns > 200'000'000)
-    throw Error("the deviation map would have over 200 million cells", "profiling.slice_m", "use larger slices or cells");
+    throw Error("the deviation map would have over 200 million cells", "profiling.slice_m",
+                "use larger slices or cells");
   map.cells.resize(map.rows * map.columns);
   return map;
+}
+
+/// Marks what the sections will interpolate, so that the map shows it.
+void fill_map_gaps(DeviationMap& map, const Mapper& mapper, double gap_m) {
+  parallel_for_each_index(
+      map.rows,
+      [&](std::size_t r) {
+        const auto begin = map.cells.begin() + static_cast<std::ptrdiff_t>(r * map.columns);
+        const std::vector<MapCell> row(begin, begin + static_cast<std::ptrdiff_t>(map.columns));
+        const Outline outline = outline_of(row, mapper.stretch_at(map.row_chainage(r)), map.step_q_m, gap_m);
+        std::copy(outline.cells.begin(), outline.cells.end(), begin);
+      },
+      4);
 }
 
 }  // namespace
@@ -218,12 +233,14 @@ MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunn
                     std::to_string(to_m),
                 "", "check the alignment, the profile and the poses: do they use the same coordinates?");
   const ObjectCells objects = remove_object_cells(result.map);
+  fill_map_gaps(result.map, mapper, options.gap_m);
   if (objects.cells > 0) {
     char words[200];
-    std::snprintf(words, sizeof words,
-                  "%.1f m2 between chainage %.1f and %.1f stand out from the rock around and were taken as equipment, not as "
-                  "underbreak",
-                  static_cast<double>(objects.cells) * result.map.step_s_m * result.map.step_q_m, objects.from_m, objects.to_m);
+    std::snprintf(
+        words, sizeof words,
+        "%.1f m2 between chainage %.1f and %.1f stand out from the rock around and were taken as equipment, not as "
+        "underbreak",
+        static_cast<double>(objects.cells) * result.map.step_s_m * result.map.step_q_m, objects.from_m, objects.to_m);
     const bool little = static_cast<double>(objects.cells) * result.map.step_s_m * result.map.step_q_m < 1.0;
     result.findings.push_back(
         {little ? Severity::note : Severity::warning, "deviation map", words, "look at the sections there"});

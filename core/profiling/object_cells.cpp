@@ -18,9 +18,11 @@ std::vector<double> surroundings(const DeviationMap& map, std::size_t row, std::
   const auto along = static_cast<std::ptrdiff_t>(half_length_m / map.step_s_m);
   const auto columns = static_cast<std::ptrdiff_t>(map.columns);
   std::vector<double> values;
-  for (std::ptrdiff_t r = static_cast<std::ptrdiff_t>(row) - along; r <= static_cast<std::ptrdiff_t>(row) + along; ++r) {
+  for (std::ptrdiff_t r = static_cast<std::ptrdiff_t>(row) - along; r <= static_cast<std::ptrdiff_t>(row) + along;
+       ++r) {
     if (r < 0 || r >= static_cast<std::ptrdiff_t>(map.rows)) continue;
-    for (std::ptrdiff_t c = static_cast<std::ptrdiff_t>(column) - across; c <= static_cast<std::ptrdiff_t>(column) + across; ++c) {
+    for (std::ptrdiff_t c = static_cast<std::ptrdiff_t>(column) - across;
+         c <= static_cast<std::ptrdiff_t>(column) + across; ++c) {
       const MapCell& cell =
           map.cell(static_cast<std::size_t>(r), static_cast<std::size_t>(((c % columns) + columns) % columns));
       if (cell.kind == CellKind::measured) values.push_back(static_cast<double>(cell.deviation_m));

@@ -78,7 +78,9 @@ void fill_gaps(Row& row, double gap_m) {
 }
 
 /// Cells of a chord are not points of the outline: the chord runs straight past them.
-bool inside_chord(const Row& row, std::size_t column) { return row.chord[column] != 0; }
+bool inside_chord(const Row& row, std::size_t column) {
+  return row.chord[column] != 0;
+}
 
 OutlinePoint outline_point(const ProfilePoint& at, double deviation_m, CellKind kind) {
   return {at.position + deviation_m * at.normal, at.p_m, deviation_m, kind, at.normal};
@@ -87,8 +89,11 @@ OutlinePoint outline_point(const ProfilePoint& at, double deviation_m, CellKind 
 }  // namespace
 
 Outline outline_of(const std::vector<MapCell>& cells, const ProfileStretch& stretch, double step_q_m, double gap_m) {
-  Row row{stretch, step_q_m, {cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(stretch.columns(step_q_m))}, {}};
+  Row row{
+      stretch, step_q_m, {cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(stretch.columns(step_q_m))}, {}};
   row.chord.assign(row.size(), 0);
+  for (MapCell& cell : row.cells)
+    if (cell.kind == CellKind::interpolated) cell = MapCell{};  // of an earlier filling
   fill_gaps(row, gap_m);
   Outline outline;
   const std::size_t n = row.size();
@@ -109,13 +114,14 @@ Outline outline_of(const std::vector<MapCell>& cells, const ProfileStretch& stre
     const bool both_unseen = unseen && there.kind == CellKind::unseen;
     if (chord || (!both_unseen && (unseen || there.kind == CellKind::unseen))) continue;
     const double d1 = both_unseen ? 0.0 : static_cast<double>(there.deviation_m);
-    const double span = next > c ? row.centre_q(next) - row.centre_q(c)
-                                 : row.centre_q(next) + stretch.length_m() - row.centre_q(c);
+    const double span =
+        next > c ? row.centre_q(next) - row.centre_q(c) : row.centre_q(next) + stretch.length_m() - row.centre_q(c);
     const auto pieces = static_cast<std::size_t>(std::ceil(span / point_spacing_m));
     for (std::size_t k = 1; k < pieces; ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(pieces);
       const double q = std::fmod(row.centre_q(c) + share * span, stretch.length_m());
-      outline.points.push_back(outline_point(stretch.at(q), d0 + share * (d1 - d0), share < 0.5 ? here.kind : there.kind));
+      outline.points.push_back(
+          outline_point(stretch.at(q), d0 + share * (d1 - d0), share < 0.5 ? here.kind : there.kind));
     }
   }
   outline.cells = std::move(row.cells);

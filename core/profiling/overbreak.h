@@ -9,7 +9,8 @@
 
 namespace adit {
 
-/// A design line as a polygon, made once per profile: its parallel curve, counter-clockwise in (x, z), arcs within 0.01 mm.
+/// A design line as a polygon, made once per profile: its parallel curve, counter-clockwise in (x, z), arcs within 0.01
+/// mm.
 struct LinePolygon {
   DesignLine line;
   Polygon ring;
@@ -27,6 +28,7 @@ struct SliceAmounts {
 SliceAmounts slice_amounts(const std::vector<OutlinePoint>& outline, const LinePolygon& line);
 
 /// All numbers of one outline against one line.
-SectionAreas section_areas(const Outline& outline, const ProfileStretch& stretch, double step_q_m, const LinePolygon& line);
+SectionAreas section_areas(const Outline& outline, const ProfileStretch& stretch, double step_q_m,
+                           const LinePolygon& line);
 
 }  // namespace adit

@@ -49,7 +49,8 @@ ProfilePoint ProfileStretch::at(double q_m) const {
       ProfilePoint point;
       point.p_m = wedge.corner.p_m;
       point.position = wedge.corner.position;
-      point.normal = {std::cos(angle) * n.x() - std::sin(angle) * n.y(), std::sin(angle) * n.x() + std::cos(angle) * n.y()};
+      point.normal = {std::cos(angle) * n.x() - std::sin(angle) * n.y(),
+                      std::sin(angle) * n.x() + std::cos(angle) * n.y()};
       return point;
     }
     widths += wedge.q_end_m - wedge.q_begin_m;

@@ -14,15 +14,15 @@
 namespace adit {
 
 struct ProfilingOptions {
-  double slice_m = 0.10;           ///< thickness of a slice along the chainage
-  double cell_m = 0.10;            ///< width of a cell along the design line
-  double gap_m = 1.0;              ///< gaps of the outline up to this are interpolated and counted apart
-  double reach_out_m = 3.0;        ///< points farther outside the line are not of this tunnel
-  double reach_in_m = 0.6;         ///< points farther inside the line are equipment, people or muck, not rock
-  double surface_band_m = 0.10;    ///< points this close behind one another are one surface
-  int least_points = 3;            ///< a cell with fewer points is not measured
-  double least_range_m = 0.6;      ///< nearer points are the scanner itself
-  double most_range_m = 45.0;      ///< farther points are too oblique to be used
+  double slice_m = 0.10;              ///< thickness of a slice along the chainage
+  double cell_m = 0.10;               ///< width of a cell along the design line
+  double gap_m = 1.0;                 ///< gaps of the outline up to this are interpolated and counted apart
+  double reach_out_m = 3.0;           ///< points farther outside the line are not of this tunnel
+  double reach_in_m = 0.6;            ///< points farther inside the line are equipment, people or muck, not rock
+  double surface_band_m = 0.10;       ///< points this close behind one another are one surface
+  int least_points = 3;               ///< a cell with fewer points is not measured
+  double least_range_m = 0.6;         ///< nearer points are the scanner itself
+  double most_range_m = 45.0;         ///< farther points are too oblique to be used
   double range_bias_sigma_m = 0.001;  ///< systematic error of the scanner's distances, for the uncertainty of volumes
 };
 
@@ -46,7 +46,7 @@ struct PlacedTiles {
   std::string name;
   std::shared_ptr<const TileSource> points;
   Pose local_from_scan = Pose::Identity();
-  bool scanner_at_origin = true;   ///< false: ranges are not limited
+  bool scanner_at_origin = true;  ///< false: ranges are not limited
 };
 
 /// Streams every tile that reaches the stretch [from, to] into the map. The design is in the local frame.

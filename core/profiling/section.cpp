@@ -16,7 +16,8 @@ std::vector<MapCell> cells_at(const DeviationMap& map, double chainage_m) {
   const auto last = static_cast<double>(map.rows - 1);
   const bool border = std::abs(place - std::round(place)) < 1e-6;
   const auto upper = static_cast<std::size_t>(std::clamp(border ? std::round(place) : std::floor(place), 0.0, last));
-  const auto lower = static_cast<std::size_t>(std::clamp(border ? std::round(place) - 1.0 : std::floor(place), 0.0, last));
+  const auto lower =
+      static_cast<std::size_t>(std::clamp(border ? std::round(place) - 1.0 : std::floor(place), 0.0, last));
   std::vector<MapCell> cells(map.columns);
   for (std::size_t c = 0; c < map.columns; ++c) {
     const MapCell& a = map.cell(lower, c);

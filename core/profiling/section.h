@@ -14,9 +14,9 @@ namespace adit {
 struct OutlinePoint {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< x right, z up [m], looking up-chainage
   double p_m = 0.0;
-  double deviation_m = 0.0;                            ///< from the profile (offset 0)
+  double deviation_m = 0.0;  ///< from the profile (offset 0)
   CellKind kind = CellKind::measured;
-  Eigen::Vector2d normal = Eigen::Vector2d::UnitY();   ///< of the profile there, outward
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitY();  ///< of the profile there, outward
 };
 
 /// What an outline says about one design line. Numbers never stand without their line and coverage.
@@ -24,20 +24,20 @@ struct SectionAreas {
   std::string line;
   double line_offset_m = 0.0;
   double design_area_m2 = 0.0;
-  double area_m2 = 0.0;            ///< inside the as-built outline; where nothing was seen it follows the line
+  double area_m2 = 0.0;  ///< inside the as-built outline; where nothing was seen it follows the line
   double overbreak_m2 = 0.0;
   double underbreak_m2 = 0.0;
   double max_overbreak_m = 0.0;
   double max_overbreak_p_m = 0.0;  ///< where along the line
   double max_underbreak_m = 0.0;
   double max_underbreak_p_m = 0.0;
-  double coverage = 0.0;           ///< share of the line that was measured
-  double interpolated = 0.0;       ///< share of the line interpolated over gaps
+  double coverage = 0.0;      ///< share of the line that was measured
+  double interpolated = 0.0;  ///< share of the line interpolated over gaps
 };
 
 struct Section {
-  double chainage_m = 0.0;         ///< internal
-  double station_m = 0.0;          ///< displayed
+  double chainage_m = 0.0;                              ///< internal
+  double station_m = 0.0;                               ///< displayed
   Eigen::Vector3d axis_site = Eigen::Vector3d::Zero();  ///< east, north, elevation of the axis
   std::vector<OutlinePoint> outline;                    ///< closed, clockwise looking up-chainage
   std::vector<SectionAreas> lines;                      ///< one for each design line, the first is the reference

@@ -12,8 +12,8 @@ constexpr double correlated_area_m2 = 0.5;
 
 struct Sums {
   double area_m2 = 0.0;
-  double across_m2 = 0.0;        ///< sum of a n_x
-  double up_m2 = 0.0;            ///< sum of a n_z
+  double across_m2 = 0.0;  ///< sum of a n_x
+  double up_m2 = 0.0;      ///< sum of a n_z
   double noise_m6 = 0.0;
   double interpolated_m2 = 0.0;
   double unseen_m2 = 0.0;
@@ -26,7 +26,8 @@ bool belongs(VolumePart part, double over_m) {
   return part == VolumePart::excavated || (part == VolumePart::over ? over_m > 0.0 : over_m < 0.0);
 }
 
-void add_cell(Sums& sums, const MapCell& cell, const ProfilePoint& at, double area_m2, double offset_m, VolumePart part) {
+void add_cell(Sums& sums, const MapCell& cell, const ProfilePoint& at, double area_m2, double offset_m,
+              VolumePart part) {
   if (cell.kind == CellKind::unseen) {
     sums.unseen_m2 += area_m2;
     return;
@@ -96,8 +97,9 @@ double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, cons
   const double mean = sums.measured_m2 > 0.0 ? sums.deviation_sum / sums.measured_m2 : 0.0;
   const double variance = sums.measured_m2 > 0.0 ? sums.deviation_square / sums.measured_m2 - mean * mean : 0.0;
   const double rock_variance = std::max(variance, 0.0);
-  const double unseen = sums.unseen_m2 * std::hypot(mean, std::sqrt(rock_variance * correlated_area_m2 /
-                                                                    std::max(sums.unseen_m2, correlated_area_m2)));
+  const double unseen =
+      sums.unseen_m2 *
+      std::hypot(mean, std::sqrt(rock_variance * correlated_area_m2 / std::max(sums.unseen_m2, correlated_area_m2)));
   const double total = std::pow(sums.across_m2 * sigma.across_m, 2) + std::pow(sums.up_m2 * sigma.up_m, 2) +
                        std::pow(end_difference_m2(row_amount_m2) * sigma.along_m, 2) +
                        std::pow(sums.area_m2 * options.range_bias_sigma_m, 2) + sums.noise_m6 +

@@ -51,7 +51,8 @@ const LineOfProfile& line_at(const std::vector<LineOfProfile>& lines, const Desi
 
 /// One row of the map over the part of its thickness that lies in [from, to].
 SliceSums slice_sums(const DeviationMap& map, std::size_t r, const DesignTunnel& design,
-                     const std::vector<LineOfProfile>& lines, double from_m, double to_m, const ProfilingOptions& options) {
+                     const std::vector<LineOfProfile>& lines, double from_m, double to_m,
+                     const ProfilingOptions& options) {
   SliceSums sums;
   const double begin = std::max(from_m, map.from_m + static_cast<double>(r) * map.step_s_m);
   const double end = std::min(to_m, map.from_m + static_cast<double>(r + 1) * map.step_s_m);
@@ -94,8 +95,7 @@ void add_section_methods(Volume& volume, const DeviationMap& map, const DesignTu
   parallel_for_each_index(
       at.size(),
       [&](std::size_t i) {
-        const double chainage =
-            i % 2 == 0 ? chainages[i / 2] : 0.5 * (chainages[i / 2] + chainages[i / 2 + 1]);
+        const double chainage = i % 2 == 0 ? chainages[i / 2] : 0.5 * (chainages[i / 2] + chainages[i / 2 + 1]);
         at[i] = amounts_of(cut_section(map, design, chainage, options), volume.line);
       },
       1);

@@ -31,17 +31,17 @@ struct Volume {
   double sigma_excavated_m3 = 0.0;
   double sigma_overbreak_m3 = 0.0;
   double sigma_underbreak_m3 = 0.0;
-  double coverage = 0.0;           ///< measured share of the surface
+  double coverage = 0.0;  ///< measured share of the surface
   double measured_m2 = 0.0;
   double interpolated_m2 = 0.0;
   double unseen_m2 = 0.0;
-  double closure_m3 = 0.0;         ///< (excavated - design) - (over - under): zero but for rounding
+  double closure_m3 = 0.0;  ///< (excavated - design) - (over - under): zero but for rounding
 };
 
 /// A blasting round with its own volumes against the reference line.
 struct RoundVolume {
   int number = 0;
-  double drilled_m = 0.0;          ///< 0 when not stated
+  double drilled_m = 0.0;  ///< 0 when not stated
   Volume volume;
 };
 

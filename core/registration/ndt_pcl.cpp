@@ -19,7 +19,8 @@ Cloud::Ptr pcl_cloud(const std::vector<Eigen::Vector3f>& points) {
 /// PCL works with float matrices; make the result exactly rigid again.
 Pose rigid(const Eigen::Matrix4f& matrix) {
   Pose pose = Pose::Identity();
-  pose.linear() = Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>().cast<double>())).normalized().toRotationMatrix();
+  pose.linear() =
+      Eigen::Quaterniond(Eigen::Matrix3d(matrix.topLeftCorner<3, 3>().cast<double>())).normalized().toRotationMatrix();
   pose.translation() = matrix.topRightCorner<3, 1>().cast<double>();
   return pose;
 }

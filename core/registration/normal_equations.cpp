@@ -76,8 +76,9 @@ NormalEquations point_to_plane_equations(const PreparedScan& target, const Prepa
 
 Pose stepped(const Pose& target_from_source, const Vector6d& step) {
   Pose next = target_from_source;
-  next.linear() =
-      Eigen::Quaterniond(rotation_from_vector(step.head<3>()) * target_from_source.linear()).normalized().toRotationMatrix();
+  next.linear() = Eigen::Quaterniond(rotation_from_vector(step.head<3>()) * target_from_source.linear())
+                      .normalized()
+                      .toRotationMatrix();
   next.translation() += step.tail<3>();
   return next;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The point-to-plane normal equations of a pair: what drives the last refinement and what tells which directions are known.
+// The point-to-plane normal equations of a pair: what drives the last refinement and what tells which directions are
+// known.
 
 #include <vector>
 
@@ -10,18 +11,18 @@
 namespace adit {
 
 /// Sums over matched points q (source point moved into the target frame) with the target's normal n and residual
-/// r = n . (q - t): with J = [(q - o) x n, n] (rotation [rad] about the source's origin o, then translation [m]; Chen and
-/// Medioni 1992), hessian = sum w J^T J, gradient = sum w J^T r. `noise` is the part of the hessian that comes from the
-/// normals' own uncertainty: sum w B (I - n n^T) B^T var(n) with B = [[q - o]x; I]. A featureless wall seen with noise has
-/// a hessian along itself made of noise alone.
+/// r = n . (q - t): with J = [(q - o) x n, n] (rotation [rad] about the source's origin o, then translation [m]; Chen
+/// and Medioni 1992), hessian = sum w J^T J, gradient = sum w J^T r. `noise` is the part of the hessian that comes from
+/// the normals' own uncertainty: sum w B (I - n n^T) B^T var(n) with B = [[q - o]x; I]. A featureless wall seen with
+/// noise has a hessian along itself made of noise alone.
 struct NormalEquations {
   Matrix6d hessian = Matrix6d::Zero();
   Matrix6d noise = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   double weight = 0.0;
-  std::vector<double> residuals_m;   ///< of every match within reach, unweighted
-  std::vector<double> distances_m;   ///< to the nearest target point
-  std::size_t looked_at = 0;         ///< source points tried
+  std::vector<double> residuals_m;  ///< of every match within reach, unweighted
+  std::vector<double> distances_m;  ///< to the nearest target point
+  std::size_t looked_at = 0;        ///< source points tried
 
   NormalEquations& operator+=(const NormalEquations& other);
 };

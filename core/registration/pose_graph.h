@@ -26,19 +26,19 @@ struct GraphControl {
 };
 
 struct PoseGraph {
-  std::vector<Pose> local_from_scan;        ///< starting values
+  std::vector<Pose> local_from_scan;  ///< starting values
   std::vector<GraphPair> pairs;
   std::vector<GraphControl> control;
-  std::optional<std::size_t> datum;         ///< this node does not move; needed when there is no control
-  double guess_sigma_m = 0.5;               ///< every node is also held, loosely, at its starting value
+  std::optional<std::size_t> datum;  ///< this node does not move; needed when there is no control
+  double guess_sigma_m = 0.5;        ///< every node is also held, loosely, at its starting value
   double guess_sigma_rad = 0.035;
   double control_sigma_m = 0.002;
 };
 
 struct PoseGraphResult {
   std::vector<Pose> local_from_scan;
-  std::vector<Matrix6d> covariance;         ///< of (rotation, translation) per node, local axes
-  std::vector<double> pair_misfit;          ///< squared residual of each pair in its own sigmas (6 are expected)
+  std::vector<Matrix6d> covariance;  ///< of (rotation, translation) per node, local axes
+  std::vector<double> pair_misfit;   ///< squared residual of each pair in its own sigmas (6 are expected)
   std::vector<Eigen::Vector3d> control_residual_m;
 };
 

@@ -44,8 +44,7 @@ struct PairCost {
   bool operator()(const T* target, const T* source, T* residual) const {
     const Eigen::Quaternion<T> target_from_local = turned(target, target_start).conjugate();
     const Eigen::Quaternion<T> turn = target_from_local * turned(source, source_start);
-    const Eigen::Matrix<T, 3, 1> move =
-        target_from_local * (moved(source, source_start) - moved(target, target_start));
+    const Eigen::Matrix<T, 3, 1> move = target_from_local * (moved(source, source_start) - moved(target, target_start));
     Eigen::Matrix<T, 6, 1> error;
     error.template head<3>() =
         rotation_vector_of<T>(turn * Eigen::Quaterniond(measured.linear()).conjugate().template cast<T>());
@@ -121,10 +120,9 @@ void build(Problem& problem, const PoseGraph& graph) {
                                    problem.blocks[pair.source].data());
   }
   for (const GraphControl& c : graph.control)
-    problem.ceres.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<ControlCost, 3, 6>(
-            new ControlCost{graph.local_from_scan[c.node], c.in_scan, c.in_local, graph.control_sigma_m}),
-        new ceres::HuberLoss(4.0), problem.blocks[c.node].data());
+    problem.ceres.AddResidualBlock(new ceres::AutoDiffCostFunction<ControlCost, 3, 6>(new ControlCost{
+                                       graph.local_from_scan[c.node], c.in_scan, c.in_local, graph.control_sigma_m}),
+                                   new ceres::HuberLoss(4.0), problem.blocks[c.node].data());
   if (graph.datum) problem.ceres.SetParameterBlockConstant(problem.blocks[*graph.datum].data());
 }
 
@@ -136,7 +134,8 @@ std::vector<Matrix6d> covariances(Problem& problem, const PoseGraph& graph) {
   ceres::Covariance covariance(options);
   std::vector<std::pair<const double*, const double*>> wanted;
   for (const auto& block : problem.blocks) wanted.emplace_back(block.data(), block.data());
-  if (!covariance.Compute(wanted, &problem.ceres)) throw Error("the covariance of the adjustment could not be computed");
+  if (!covariance.Compute(wanted, &problem.ceres))
+    throw Error("the covariance of the adjustment could not be computed");
   std::vector<Matrix6d> result(problem.blocks.size(), Matrix6d::Zero());
   for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
     if (graph.datum == i) continue;

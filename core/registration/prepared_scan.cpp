@@ -17,7 +17,8 @@ PreparedScan prepare_scan(const std::string& name, const TileSource& source, dou
   Progress thinning = progress.part(0.5, "");
   scan.spacing_m = spacing_m;
   scan.points = even_subsample(source, spacing_m, least_range_m, most_range_m, thinning).points;
-  for (int turn = 0; turn < 2 && scan.points.size() < enough_points && scan.points.size() < total_points(source) / 3; ++turn) {
+  for (int turn = 0; turn < 2 && scan.points.size() < enough_points && scan.points.size() < total_points(source) / 3;
+       ++turn) {
     scan.spacing_m *= 0.5;
     scan.points = even_subsample(source, scan.spacing_m, least_range_m, most_range_m, thinning).points;
   }

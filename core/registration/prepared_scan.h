@@ -21,9 +21,9 @@ struct PreparedScan {
   std::shared_ptr<const NearestNeighbours> tree;
 };
 
-/// Points at an even spacing (halved, twice at most, while a scan of a small room leaves fewer than 20,000 of them), ranges from least to most; the scanner at the origin sees every normal's face (with no
-/// limit on ranges, the middle of the points does: where the scanner stood is unknown then).
-/// Throws Error when fewer than 500 points remain.
+/// Points at an even spacing (halved, twice at most, while a scan of a small room leaves fewer than 20,000 of them),
+/// ranges from least to most; the scanner at the origin sees every normal's face (with no limit on ranges, the middle
+/// of the points does: where the scanner stood is unknown then). Throws Error when fewer than 500 points remain.
 PreparedScan prepare_scan(const std::string& name, const TileSource& source, double spacing_m, double least_range_m,
                           double most_range_m, Progress& progress);
 

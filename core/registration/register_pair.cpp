@@ -12,7 +12,8 @@
 namespace adit {
 namespace {
 
-/// Reach of Tukey's weights for the noise found in the overlap: 4.685 sigma keeps 95 % of the efficiency on normal noise.
+/// Reach of Tukey's weights for the noise found in the overlap: 4.685 sigma keeps 95 % of the efficiency on normal
+/// noise.
 double tukey_reach_m(const NormalEquations& equations, double match_distance_m) {
   return std::clamp(4.685 * robust_sigma(equations.residuals_m), 0.02, 0.5 * match_distance_m);
 }
@@ -22,7 +23,8 @@ Pose stepped_to_rest(const PreparedScan& target, const PreparedScan& source, Pos
                      double tukey_m, Progress& progress) {
   for (int iteration = 0; iteration < 20; ++iteration) {
     progress.check();
-    const NormalEquations equations = point_to_plane_equations(target, source, pose, match_distance_m, tukey_m, progress);
+    const NormalEquations equations =
+        point_to_plane_equations(target, source, pose, match_distance_m, tukey_m, progress);
     if (equations.weight < 50.0) return pose;
     const Matrix6d damped = equations.hessian + 1e-6 * equations.weight * Matrix6d::Identity();
     const Vector6d step = -damped.ldlt().solve(equations.gradient);
@@ -43,8 +45,7 @@ Pose polished(const PreparedScan& target, const PreparedScan& source, Pose pose,
 }
 
 void put_back_to_guess(Pose& pose, const Pose& guess, const std::vector<Eigen::Vector3d>& axes) {
-  for (const auto& axis : axes)
-    pose.translation() -= axis * axis.dot(pose.translation() - guess.translation());
+  for (const auto& axis : axes) pose.translation() -= axis * axis.dot(pose.translation() - guess.translation());
 }
 
 double share_below(const std::vector<double>& values, double limit) {
@@ -56,12 +57,14 @@ double share_below(const std::vector<double>& values, double limit) {
 void judge(PairResult& pair, const PreparedScan& target, const PreparedScan& source, const Pose& guess,
            const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress) {
   const auto equations_at = [&](double tukey_m) {
-    return point_to_plane_equations(target, source, pair.target_from_source, options.match_distance_m, tukey_m, progress);
+    return point_to_plane_equations(target, source, pair.target_from_source, options.match_distance_m, tukey_m,
+                                    progress);
   };
   const double tukey_m = tukey_reach_m(equations_at(0.25 * options.match_distance_m), options.match_distance_m);
   NormalEquations equations = equations_at(tukey_m);
   const double noise = std::max(options.point_sigma_m, robust_sigma(equations.residuals_m));
-  const PairInformation known = judge_observability(equations, noise, source.spacing_m, axes, options.undetermined_sigma_m);
+  const PairInformation known =
+      judge_observability(equations, noise, source.spacing_m, axes, options.undetermined_sigma_m);
   pair.sigma = known.sigma;
   pair.undetermined = known.undetermined;
   pair.information = known.information;
@@ -75,7 +78,8 @@ void judge(PairResult& pair, const PreparedScan& target, const PreparedScan& sou
   pair.rms_m = root_mean_square(equations.residuals_m);
   pair.median_distance_m = median(equations.distances_m);
   pair.within_6mm = share_below(equations.residuals_m, 0.006);
-  pair.overlap = overlap_at(target, source, pair.target_from_source, 2.0 * std::max(target.spacing_m, source.spacing_m));
+  pair.overlap =
+      overlap_at(target, source, pair.target_from_source, 2.0 * std::max(target.spacing_m, source.spacing_m));
 }
 
 }  // namespace
@@ -96,7 +100,8 @@ double overlap_at(const PreparedScan& target, const PreparedScan& source, const 
 }
 
 PairResult register_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess,
-                         const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options, Progress& progress) {
+                         const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options,
+                         Progress& progress) {
   PairResult pair;
   pair.source = source.name;
   pair.target = target.name;

@@ -70,8 +70,8 @@ void check_names(const std::vector<ScanToPlace>& scans, const RegistrationContex
   const auto by_id = control_by_id(context);
   for (const auto& target : context.targets) {
     if (names.count(target.scan) == 0)
-      throw Error("target " + target.id + " belongs to scan \"" + target.scan + "\", which the job does not have", "targets",
-                  "use the names of the job's scans");
+      throw Error("target " + target.id + " belongs to scan \"" + target.scan + "\", which the job does not have",
+                  "targets", "use the names of the job's scans");
   }
   for (const auto& target : context.targets) {
     if (by_id.count(target.id) == 0)
@@ -120,7 +120,8 @@ std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const Reg
   return pairs;
 }
 
-Eigen::Vector3d axis_at(const RegistrationContext& context, const std::vector<Node>& nodes, const Eigen::Vector3d& where) {
+Eigen::Vector3d axis_at(const RegistrationContext& context, const std::vector<Node>& nodes,
+                        const Eigen::Vector3d& where) {
   if (context.axis_direction) return context.axis_direction(where);
   // Without a design: the line through the stations, or east for a single one.
   Eigen::Vector3d direction = nodes.back().start.translation() - nodes.front().start.translation();
@@ -133,8 +134,9 @@ std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std
                                        Progress& progress) {
   std::vector<Progress> parts;
   for (const auto& c : candidates)
-    parts.push_back(progress.part(1.0 / static_cast<double>(candidates.size()),
-                                  "matching " + nodes[c.source].prepared.name + " with " + nodes[c.target].prepared.name));
+    parts.push_back(
+        progress.part(1.0 / static_cast<double>(candidates.size()),
+                      "matching " + nodes[c.source].prepared.name + " with " + nodes[c.target].prepared.name));
   std::vector<PairResult> results(candidates.size());
   parallel_for_each_index(
       candidates.size(),
@@ -143,8 +145,8 @@ std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std
         const Node& source = nodes[candidates[k].source];
         const Eigen::Vector3d middle = 0.5 * (target.start.translation() + source.start.translation());
         const Eigen::Vector3d axis = target.start.linear().transpose() * axis_at(context, nodes, middle);
-        results[k] = register_pair(target.prepared, source.prepared, target.start.inverse() * source.start, axis, options,
-                                   parts[k]);
+        results[k] = register_pair(target.prepared, source.prepared, target.start.inverse() * source.start, axis,
+                                   options, parts[k]);
         results[k].used = results[k].overlap >= options.least_overlap;
       },
       1);
@@ -167,7 +169,8 @@ PoseGraph graph_of(const std::vector<Node>& nodes, const std::vector<Candidate>&
   if (graph.control.empty()) graph.datum = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (pairs[k].used)
-      graph.pairs.push_back({candidates[k].source, candidates[k].target, pairs[k].target_from_source, pairs[k].information});
+      graph.pairs.push_back(
+          {candidates[k].source, candidates[k].target, pairs[k].target_from_source, pairs[k].information});
   return graph;
 }
 
@@ -231,12 +234,14 @@ void name_undetermined(PlacedScan& scan, const RegistrationOptions& options, Fin
     char words[160];
     std::snprintf(words, sizeof words, "%s the tunnel: not determined by the clouds (sigma %.0f mm), held at the guess",
                   direction, 1000.0 * sigma_m);
-    findings.push_back({Severity::decision, "scan " + scan.name, words, "survey targets for this scan or add scans between"});
+    findings.push_back(
+        {Severity::decision, "scan " + scan.name, words, "survey targets for this scan or add scans between"});
   }
 }
 
 void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
-                 const PoseGraphResult& solved, const RegistrationContext& context, const RegistrationOptions& options) {
+                 const PoseGraphResult& solved, const RegistrationContext& context,
+                 const RegistrationOptions& options) {
   const auto tied = tied_nodes(nodes, candidates, result.pairs);
   const bool datum_needed = std::all_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.control.empty(); });
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -259,7 +264,8 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
 }
 
 void report_control(RegistrationResult& result, const std::vector<Node>& nodes, const std::vector<ScanToPlace>& scans,
-                    const RegistrationContext& context, const PoseGraphResult& solved, const RegistrationOptions& options) {
+                    const RegistrationContext& context, const PoseGraphResult& solved,
+                    const RegistrationOptions& options) {
   const auto by_id = control_by_id(context);
   std::vector<double> components;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -271,8 +277,8 @@ void report_control(RegistrationResult& result, const std::vector<Node>& nodes, 
       for (const double component : residual) components.push_back(component);
       if (residual.cwiseAbs().maxCoeff() <= 5.0 * options.control_sigma_m) continue;
       char words[160];
-      std::snprintf(words, sizeof words, "residual of %.1f mm at target %s; over five times its sigma", 1000.0 * residual.norm(),
-                    target.id.c_str());
+      std::snprintf(words, sizeof words, "residual of %.1f mm at target %s; over five times its sigma",
+                    1000.0 * residual.norm(), target.id.c_str());
       result.findings.push_back({Severity::decision, "scan " + name, words, "check this target and its control point"});
     }
   }
@@ -284,8 +290,9 @@ void prepare_nodes(std::vector<Node>& nodes, const std::vector<ScanToPlace>& sca
   for (Node& node : nodes) {
     const ScanToPlace& scan = scans[node.scan];
     Progress part = progress.part(1.0 / static_cast<double>(nodes.size()), "preparing scan " + scan.name);
-    node.prepared = prepare_scan(scan.name, *scan.points, options.spacing_m, scan.scanner_at_origin ? least_range_m : 0.0,
-                                 scan.scanner_at_origin ? most_range_m : 1e9, part);
+    node.prepared =
+        prepare_scan(scan.name, *scan.points, options.spacing_m, scan.scanner_at_origin ? least_range_m : 0.0,
+                     scan.scanner_at_origin ? most_range_m : 1e9, part);
   }
 }
 
@@ -312,7 +319,8 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   report_control(result, nodes, scans, context, solved, options);
   for (const auto& scan : result.scans) {
     if (!scan.placed)
-      result.findings.push_back({Severity::decision, "scan " + scan.name, "not placed: it has no guess and too few targets",
+      result.findings.push_back({Severity::decision, "scan " + scan.name,
+                                 "not placed: it has no guess and too few targets",
                                  "give it a pose in job.json or survey three targets"});
   }
   result.accepted = std::none_of(result.findings.begin(), result.findings.end(),

@@ -9,23 +9,23 @@
 
 #include "core/foundation/finding.h"
 #include "core/foundation/progress.h"
-#include "core/georeference/control.h"
 #include "core/geometry/pose.h"
 #include "core/geometry/tile_source.h"
+#include "core/georeference/control.h"
 
 namespace adit {
 
 struct RegistrationOptions {
-  double spacing_m = 0.10;               ///< even subsample used for matching
-  double cell_m = 1.0;                   ///< cells of the normal distributions transform (first twice this, then this)
-  double match_distance_m = 0.30;        ///< farthest pair of points of the last refinement
-  double pair_distance_m = 35.0;         ///< stations farther apart are not paired
-  double least_overlap = 0.15;           ///< pairs with less overlap are not used
-  double guess_sigma_m = 0.5;            ///< how far guesses may be off (one sigma)
+  double spacing_m = 0.10;         ///< even subsample used for matching
+  double cell_m = 1.0;             ///< cells of the normal distributions transform (first twice this, then this)
+  double match_distance_m = 0.30;  ///< farthest pair of points of the last refinement
+  double pair_distance_m = 35.0;   ///< stations farther apart are not paired
+  double least_overlap = 0.15;     ///< pairs with less overlap are not used
+  double guess_sigma_m = 0.5;      ///< how far guesses may be off (one sigma)
   double guess_sigma_deg = 2.0;
-  double control_sigma_m = 0.002;        ///< of a target against its control point, per axis
-  double point_sigma_m = 0.005;          ///< least noise assumed for matched surfaces
-  double undetermined_sigma_m = 0.02;    ///< a direction weaker than this is named and held at its prior
+  double control_sigma_m = 0.002;      ///< of a target against its control point, per axis
+  double point_sigma_m = 0.005;        ///< least noise assumed for matched surfaces
+  double undetermined_sigma_m = 0.02;  ///< a direction weaker than this is named and held at its prior
 };
 
 template <typename Visitor>
@@ -36,7 +36,8 @@ void describe(Visitor& v, RegistrationOptions& o) {
   v.number("pair_distance_m", o.pair_distance_m, "m", 1.0, 200.0, "stations farther apart are not paired");
   v.number("least_overlap", o.least_overlap, "", 0.01, 0.95, "pairs with less overlap are not used");
   v.number("guess_sigma_m", o.guess_sigma_m, "m", 0.001, 10.0, "how far guessed positions may be off (one sigma)");
-  v.number("guess_sigma_deg", o.guess_sigma_deg, "deg", 0.01, 20.0, "how far guessed directions may be off (one sigma)");
+  v.number("guess_sigma_deg", o.guess_sigma_deg, "deg", 0.01, 20.0,
+           "how far guessed directions may be off (one sigma)");
   v.number("control_sigma_m", o.control_sigma_m, "m", 0.0001, 0.1, "noise of a target against its control point");
   v.number("point_sigma_m", o.point_sigma_m, "m", 0.0005, 0.1, "least noise assumed for matched surfaces");
   v.number("undetermined_sigma_m", o.undetermined_sigma_m, "m", 0.002, 1.0,
@@ -66,15 +67,16 @@ struct PairResult {
   std::string source;
   std::string target;
   Pose target_from_source = Pose::Identity();
-  double overlap = 0.0;             ///< share of the smaller scan's subsample that lies within reach of the other
-  double rms_m = 0.0;               ///< point-to-plane residuals in the overlap
-  double median_m = 0.0;            ///< median absolute point-to-plane residual
-  double median_distance_m = 0.0;   ///< median distance of nearest points in the overlap
-  double within_6mm = 0.0;          ///< share of residuals under 6 mm
+  double overlap = 0.0;            ///< share of the source's subsample that lies within reach of the target
+  double rms_m = 0.0;              ///< point-to-plane residuals in the overlap
+  double median_m = 0.0;           ///< median absolute point-to-plane residual
+  double median_distance_m = 0.0;  ///< median distance of nearest points in the overlap
+  double within_6mm = 0.0;         ///< share of residuals under 6 mm
   PoseSigma sigma;
   std::vector<std::string> undetermined;  ///< "along", "across", "up": not known from the clouds, held at the guess
-  bool used = true;                 ///< false when the adjustment found it wrong
-  Matrix6d information = Matrix6d::Zero();  ///< of (rotation [rad], translation [m]) in the target's frame at the source's origin
+  bool used = true;                       ///< false when the adjustment found it wrong
+  Matrix6d information =
+      Matrix6d::Zero();  ///< of (rotation [rad], translation [m]) in the target's frame at the source's origin
 };
 
 /// Where a scan stands after the adjustment.
@@ -83,12 +85,12 @@ struct PlacedScan {
   bool placed = false;
   Pose local_from_scan = Pose::Identity();
   PoseSigma sigma;
-  std::string placed_by;            ///< "clouds", "clouds and control", "control", "guess", "datum", "not placed"
+  std::string placed_by;  ///< "clouds", "clouds and control", "control", "guess", "datum", "not placed"
   std::vector<std::string> undetermined;
 };
 
 struct RegistrationResult {
-  bool accepted = false;            ///< every scan placed, every direction determined
+  bool accepted = false;  ///< every scan placed, every direction determined
   std::vector<PlacedScan> scans;
   std::vector<PairResult> pairs;
   std::vector<ControlResidual> control;
@@ -98,8 +100,8 @@ struct RegistrationResult {
 
 /// What is known beside the clouds.
 struct RegistrationContext {
-  std::vector<ControlPoint> control;          ///< local frame (site minus origin)
-  std::vector<TargetObservation> targets;     ///< scan frames
+  std::vector<ControlPoint> control;       ///< local frame (site minus origin)
+  std::vector<TargetObservation> targets;  ///< scan frames
   /// Unit direction of the tunnel axis in the local frame near a point; empty: taken from the clouds.
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> axis_direction;
 };

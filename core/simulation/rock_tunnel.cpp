@@ -64,8 +64,7 @@ void RockTunnel::fill_grid() {
           const double p = static_cast<double>(c) * step_p_m_ - 0.5 * length;
           const double wall = options_.roughness_sigma_m * rock.at(s, p);
           const double floor = options_.floor_mean_m + options_.floor_sigma_m * muck.at(s, p);
-          grid_[r * columns_ + c] =
-              lookout_[c] * wall + floor_[c] * floor + (1.0 - taper[c]) * options_.corner_m;
+          grid_[r * columns_ + c] = lookout_[c] * wall + floor_[c] * floor + (1.0 - taper[c]) * options_.corner_m;
         }
       },
       8);
@@ -90,7 +89,8 @@ double RockTunnel::deviation(double s_m, double p_m) const {
 }
 
 double RockTunnel::face_chainage(double x_m, double z_m) const {
-  return options_.face_m + 0.12 * std::sin(1.3 * x_m + 0.4) * std::cos(1.1 * z_m) + 0.05 * std::sin(3.1 * x_m - 2.2 * z_m);
+  return options_.face_m + 0.12 * std::sin(1.3 * x_m + 0.4) * std::cos(1.1 * z_m) +
+         0.05 * std::sin(3.1 * x_m - 2.2 * z_m);
 }
 
 double RockTunnel::clutter_distance(const TunnelPoint& point, Surface& surface) const {
@@ -113,7 +113,8 @@ double RockTunnel::clutter_distance(const TunnelPoint& point, Surface& surface) 
   offer(box_distance(q, {face - 8.0, right - 0.15, 1.5}, {face - 4.5, right + 0.15, 1.8}), Surface::rig);
   for (const double wheel : {-13.2, -9.0})
     for (const double side : {-0.95, 0.95})
-      offer(box_distance(q, {face + wheel - 0.5, right + side - 0.2, -0.5}, {face + wheel + 0.5, right + side + 0.2, 0.5}),
+      offer(box_distance(q, {face + wheel - 0.5, right + side - 0.2, -0.5},
+                         {face + wheel + 0.5, right + side + 0.2, 0.5}),
             Surface::rig);
   const double run = std::clamp((point.s_m - (face - 4.0)) / 4.0, 0.0, 1.0);
   const double across = std::clamp(std::abs(point.x_m) / half_width_m_, 0.0, 1.0);

@@ -29,11 +29,16 @@ Raster raster_of(const ScannerOptions& options) {
 
 double albedo(Surface surface) {
   switch (surface) {
-    case Surface::duct: return 0.9;
-    case Surface::rig: return 0.75;
-    case Surface::person: return 0.6;
-    case Surface::muck: return 0.3;
-    default: return 0.42;
+    case Surface::duct:
+      return 0.9;
+    case Surface::rig:
+      return 0.75;
+    case Surface::person:
+      return 0.6;
+    case Surface::muck:
+      return 0.3;
+    default:
+      return 0.42;
   }
 }
 
@@ -55,8 +60,9 @@ PointCloud scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, c
         const auto along = [](double a, double e) {
           return Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
         };
-        const Eigen::Vector3d true_direction = along(azimuth + options.angle_sigma_rad * random.normal(4 * pulse),
-                                                     elevation + options.angle_sigma_rad * random.normal(4 * pulse + 1));
+        const Eigen::Vector3d true_direction =
+            along(azimuth + options.angle_sigma_rad * random.normal(4 * pulse),
+                  elevation + options.angle_sigma_rad * random.normal(4 * pulse + 1));
         const auto hit = tunnel.cast(design_from_scan.translation(), design_from_scan.linear() * true_direction,
                                      options.most_range_m, people);
         if (!hit || hit->range_m < options.least_range_m) continue;

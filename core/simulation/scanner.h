@@ -13,13 +13,13 @@ namespace adit {
 
 struct ScannerOptions {
   std::uint64_t seed = 1;
-  std::uint64_t pulses = 1000000;        ///< sent over the whole field of view, evenly in both angles
+  std::uint64_t pulses = 1000000;  ///< sent over the whole field of view, evenly in both angles
   double least_range_m = 0.6;
   double most_range_m = 45.0;
-  double lowest_elevation_deg = -62.0;   ///< the tripod hides what is below
-  double range_sigma_m = 0.0025;         ///< at square incidence; grows with obliqueness
+  double lowest_elevation_deg = -62.0;  ///< the tripod hides what is below
+  double range_sigma_m = 0.0025;        ///< at square incidence; grows with obliqueness
   double angle_sigma_rad = 4e-5;
-  double dropout = 0.004;                ///< lost at square incidence and short range; more when dim
+  double dropout = 0.004;  ///< lost at square incidence and short range; more when dim
 };
 
 /// One scan in its own frame: x forward, z up along the standing axis, column by column. intensity in [0, 1].

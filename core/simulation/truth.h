@@ -25,14 +25,15 @@ struct TrueSection {
 struct Truth {
   std::vector<std::string> scan_names;
   std::vector<Pose> site_from_scan;
-  double face_chainage_m = 0.0;      ///< mean over the design area
+  double face_chainage_m = 0.0;  ///< mean over the design area
   double from_m = 0.0;
   double to_m = 0.0;
-  VolumeAmounts volume;              ///< of [from, to] with plan curvature
+  VolumeAmounts volume;  ///< of [from, to] with plan curvature
   std::vector<TrueSection> sections;
 };
 
-/// With d the deviation, k the curvature of the line and n_x the normal's part to the right, a piece dp of the line holds
+/// With d the deviation, k the curvature of the line and n_x the normal's part to the right, a piece dp of the line
+/// holds
 ///   over:  d + k d^2/2 of area and x d + (x k + n_x) d^2/2 + n_x k d^3/3 of first moment,
 /// the same with signs for underbreak (no deeper than the medial axis), and wedges at convex corners.
 TrueSection true_section(const RockTunnel& tunnel, double chainage_m);

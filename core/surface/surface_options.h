@@ -4,8 +4,8 @@
 namespace adit {
 
 struct SurfaceOptions {
-  double spacing_m = 0.15;        ///< even spacing of the points that become mesh points
-  double longest_edge_m = 0.9;    ///< no triangle has a longer edge; wider gaps stay open
+  double spacing_m = 0.15;      ///< even spacing of the points that become mesh points
+  double longest_edge_m = 0.9;  ///< no triangle has a longer edge; wider gaps stay open
 };
 
 template <typename Visitor>

@@ -47,8 +47,10 @@ TEST(RunJobSlow, StepsRunAgainOnlyWhenWhatTheyDependOnChanged) {
   const TemporaryFolder folder;
   tests::small_demo(folder.path());
   const auto first = tests::run(folder.path());
-  EXPECT_EQ(steps_run(*first), (std::vector<std::string>{"import", "register", "surface", "profile", "volume", "report"}));
-  for (const char* file : {"report.pdf", "results.json", "sections.csv", "volumes.csv", "registration.csv", "map.png", "mesh.ply"})
+  EXPECT_EQ(steps_run(*first),
+            (std::vector<std::string>{"import", "register", "surface", "profile", "volume", "report"}));
+  for (const char* file :
+       {"report.pdf", "results.json", "sections.csv", "volumes.csv", "registration.csv", "map.png", "mesh.ply"})
     EXPECT_TRUE(fs::is_regular_file(folder / "out" / file)) << file;
 
   const auto again = tests::run(folder.path());
@@ -117,7 +119,8 @@ TEST(JobRunnerSlow, CancelAnswersWithinASecondAndLeavesFinishedSteps) {
   options.context.make_gl_context = [] { return render::make_osmesa_context(); };
   app::JobRunner runner;
   runner.start(folder / "job.json", options);
-  while (runner.poll().running && runner.poll().fraction < 0.3) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (runner.poll().running && runner.poll().fraction < 0.3)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   const auto asked = std::chrono::steady_clock::now();
   runner.cancel();
   runner.wait();

@@ -42,7 +42,8 @@ PlacedTiles placed(PointCloud cloud, const Eigen::Vector3d& scanner) {
   return tiles;
 }
 
-Volume volume_of(const DesignTunnel& design, const PlacedTiles& scan, double from_m, double to_m, const DesignLine& line) {
+Volume volume_of(const DesignTunnel& design, const PlacedTiles& scan, double from_m, double to_m,
+                 const DesignLine& line) {
   Progress progress;
   const ProfilingOptions options;
   const MapResult result = map_deviations({scan}, design, from_m, to_m, options, progress);
@@ -52,8 +53,10 @@ Volume volume_of(const DesignTunnel& design, const PlacedTiles& scan, double fro
 TEST(Volume, OfATorusIsExact) {
   // dV/ds of a circle of radius R on a plan curve centred on the axis: pi R^2, whatever the curvature.
   const DesignTunnel design = sample_design(circle_profile(), 60.0);
-  const PointCloud cloud = circle_points(design.alignment(), 39.0, 51.0, Eigen::Vector3d::Zero(), [](double, double) { return 0.25; });
-  const Volume volume = volume_of(design, placed(cloud, design.alignment().to_site({45, 0, 0})), 40.0, 50.0, {"excavation", 0.0});
+  const PointCloud cloud =
+      circle_points(design.alignment(), 39.0, 51.0, Eigen::Vector3d::Zero(), [](double, double) { return 0.25; });
+  const Volume volume =
+      volume_of(design, placed(cloud, design.alignment().to_site({45, 0, 0})), 40.0, 50.0, {"excavation", 0.0});
   EXPECT_NEAR(volume.slices.design_m3, 10.0 * pi * 16.0, 0.01);
   EXPECT_NEAR(volume.slices.excavated_m3, 10.0 * pi * 4.25 * 4.25, 0.02);
   EXPECT_NEAR(volume.slices.overbreak_m3, 10.0 * pi * (4.25 * 4.25 - 16.0), 0.02);
@@ -68,7 +71,8 @@ TEST(Volume, WithOverbreakOnTheOuterWallFollowsPlanCurvature) {
   const DesignTunnel design = sample_design(circle_profile(), 60.0);
   const auto left = [](double, double angle) { return std::sin(angle) < 0.0 ? 0.3 : 0.0; };
   const PointCloud cloud = circle_points(design.alignment(), 39.0, 51.0, Eigen::Vector3d::Zero(), left);
-  const Volume volume = volume_of(design, placed(cloud, design.alignment().to_site({45, 0, 0})), 40.0, 50.0, {"excavation", 0.0});
+  const Volume volume =
+      volume_of(design, placed(cloud, design.alignment().to_site({45, 0, 0})), 40.0, 50.0, {"excavation", 0.0});
   const double area = pi / 2.0 * (4.3 * 4.3 - 16.0);
   const double moment = -2.0 / 3.0 * (4.3 * 4.3 * 4.3 - 64.0);
   EXPECT_NEAR(volume.slices.overbreak_m3, 10.0 * (area - moment / 60.0), 0.25);  // the two steps cost half a cell each
@@ -102,13 +106,14 @@ TEST(Section, SameNearZeroAndWithLargeCoordinates) {
   // Poses in site minus a whole-metre origin, as the app keeps them; scans in their own frame.
   const auto bumps = [](double s, double angle) { return 0.1 + 0.1 * std::sin(2.0 * angle) * std::cos(0.7 * s); };
   std::vector<Section> sections;
-  for (const Eigen::Vector3d& start :
-       {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2683026.0, 1251466.0, 400.0), Eigen::Vector3d(612345.0, 6998765.0, 412.0)}) {
+  for (const Eigen::Vector3d& start : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2683026.0, 1251466.0, 400.0),
+                                       Eigen::Vector3d(612345.0, 6998765.0, 412.0)}) {
     const DesignTunnel site = sample_design(circle_profile(), 150.0, start);
     const Eigen::Vector3d origin = start.array().round();
     const DesignTunnel design = site.relative_to(origin);
     const Alignment near_zero = sample_axis(150.0);
-    PlacedTiles scan = placed(circle_points(near_zero, 40.0, 46.0, Eigen::Vector3d::Zero(), bumps), near_zero.to_site({43, 0, 0}));
+    PlacedTiles scan =
+        placed(circle_points(near_zero, 40.0, 46.0, Eigen::Vector3d::Zero(), bumps), near_zero.to_site({43, 0, 0}));
     Progress progress;
     const ProfilingOptions options;
     const MapResult map = map_deviations({scan}, design, 41.0, 45.0, options, progress);
@@ -128,12 +133,13 @@ TEST(Section, AGapIsInterpolatedUpToItsLimitAndLeftOpenBeyond) {
   const ProfileStretch stretch(design.profile_at(0.0));
   std::vector<MapCell> row(stretch.columns(0.1));
   for (auto& cell : row) cell = {0.2F, 0.0F, 10, CellKind::measured};
-  for (std::size_t c = 50; c < 58; ++c) row[c] = MapCell{};   // 0.8 m
+  for (std::size_t c = 50; c < 58; ++c) row[c] = MapCell{};    // 0.8 m
   for (std::size_t c = 120; c < 140; ++c) row[c] = MapCell{};  // 2 m
   const Outline outline = outline_of(row, stretch, 0.1, 1.0);
   EXPECT_NEAR(outline.interpolated_m, 0.8, 1e-9);
   EXPECT_NEAR(outline.unseen_m, 2.0, 1e-9);
-  const SectionAreas areas = section_areas(outline, stretch, 0.1, line_polygon(design.profile_at(0.0), {"excavation", 0.0}));
+  const SectionAreas areas =
+      section_areas(outline, stretch, 0.1, line_polygon(design.profile_at(0.0), {"excavation", 0.0}));
   const double full = pi * (4.2 * 4.2 - 16.0);
   EXPECT_NEAR(areas.overbreak_m2, full * (1.0 - 2.0 / (8.0 * pi)), 0.03);  // unseen: as the design
   EXPECT_NEAR(areas.coverage, 1.0 - 2.8 / (8.0 * pi), 1e-6);
@@ -142,7 +148,8 @@ TEST(Section, AGapIsInterpolatedUpToItsLimitAndLeftOpenBeyond) {
 }
 
 TEST(Section, WhatLiesOutsideACornerIsKept) {
-  const Profile square("square", {{{-2, 0}, {-2, 4}, 0}, {{-2, 4}, {2, 4}, 0}, {{2, 4}, {2, 0}, 0}, {{2, 0}, {-2, 0}, 0}});
+  const Profile square("square",
+                       {{{-2, 0}, {-2, 4}, 0}, {{-2, 4}, {2, 4}, 0}, {{2, 4}, {2, 0}, 0}, {{2, 0}, {-2, 0}, 0}});
   const ProfileStretch stretch(square);
   std::vector<MapCell> row(stretch.columns(0.1));
   for (auto& cell : row) cell = {0.5F, 0.0F, 10, CellKind::measured};
@@ -180,7 +187,9 @@ TEST(Map, DoesNotDependOnTheOrderOfPointsOrScans) {
   std::vector<PlacedTiles> scans;
   for (int i = 0; i < 2; ++i) {
     const Pose pose = station(rock.design(), 36.0 + 8.0 * i, 20.0 * i);
-    scans.push_back({"S" + std::to_string(i), std::make_shared<CloudTiles>(scan_at(rock, pose, 3 + static_cast<std::uint64_t>(i), 60000)), pose});
+    scans.push_back({"S" + std::to_string(i),
+                     std::make_shared<CloudTiles>(scan_at(rock, pose, 3 + static_cast<std::uint64_t>(i), 60000)),
+                     pose});
   }
   Progress progress;
   const MapResult a = map_deviations(scans, rock.design(), 32.0, 48.0, {}, progress);
@@ -200,7 +209,9 @@ TEST(VolumeSlow, OfASimulatedTunnelIsWithinOnePercentAndItsSigma) {
   std::vector<PlacedTiles> scans;
   for (int i = 0; i < 3; ++i) {
     const Pose pose = station(rock.design(), 30.0 + 11.0 * i, 70.0 * i);
-    scans.push_back({"S" + std::to_string(i), std::make_shared<CloudTiles>(scan_at(rock, pose, 30 + static_cast<std::uint64_t>(i), 900000)), pose});
+    scans.push_back({"S" + std::to_string(i),
+                     std::make_shared<CloudTiles>(scan_at(rock, pose, 30 + static_cast<std::uint64_t>(i), 900000)),
+                     pose});
   }
   Progress progress;
   const MapResult map = map_deviations(scans, rock.design(), 28.0, 54.0, {}, progress);

@@ -47,7 +47,8 @@ TEST(RegistrationSlow, PlacesAScanGuessedHalfAMetreAndTwoDegreesOff) {
   EXPECT_TRUE(result.pairs[0].undetermined.empty());
   EXPECT_LT(result.pairs[0].median_m, 0.006);
   // The stated sigma is honest: the error lies within four of it.
-  EXPECT_LT(distance_between_m(result.scans[1].local_from_scan, two.second), 4.0 * result.scans[1].sigma.along_m + 0.002);
+  EXPECT_LT(distance_between_m(result.scans[1].local_from_scan, two.second),
+            4.0 * result.scans[1].sigma.along_m + 0.002);
 }
 
 TEST(RegistrationSlow, GivesTheSameBytesOnOneThreadAndTwo) {
@@ -75,16 +76,16 @@ TEST(RegistrationSlow, AFeaturelessTubeIsUndeterminedAlongAndHeldAtItsGuess) {
   const Eigen::Vector3d along(t.x(), t.y(), 0.0);
   const Pose guess = off(second, 0.3 * along, 1.0);
   Progress progress;
-  const RegistrationResult result = register_scans({scan_to_place("A", scan_at(tube, first, 1), first),
-                                                    scan_to_place("B", scan_at(tube, second, 2), guess)},
-                                                   context_along(tube.design()), {}, progress);
+  const RegistrationResult result = register_scans(
+      {scan_to_place("A", scan_at(tube, first, 1), first), scan_to_place("B", scan_at(tube, second, 2), guess)},
+      context_along(tube.design()), {}, progress);
   EXPECT_FALSE(result.accepted);
   ASSERT_FALSE(result.pairs[0].undetermined.empty());
   EXPECT_EQ(result.pairs[0].undetermined.front(), "along");
   const Eigen::Vector3d error = result.scans[1].local_from_scan.translation() - second.translation();
-  EXPECT_NEAR(error.dot(along), 0.3, 0.02);                        // held at the guess
-  EXPECT_LT((error - along * error.dot(along)).norm(), 0.005);     // the rest is found
-  EXPECT_GT(result.scans[1].sigma.along_m, 0.1);                   // and it says so
+  EXPECT_NEAR(error.dot(along), 0.3, 0.02);                     // held at the guess
+  EXPECT_LT((error - along * error.dot(along)).norm(), 0.005);  // the rest is found
+  EXPECT_GT(result.scans[1].sigma.along_m, 0.1);                // and it says so
   EXPECT_TRUE(std::any_of(result.findings.begin(), result.findings.end(),
                           [](const Finding& f) { return f.severity == Severity::decision && f.subject == "scan B"; }));
 }
@@ -107,9 +108,10 @@ TEST(RegistrationSlow, ControlDeterminesWhatACloudCannot) {
       context.targets.push_back({i == 0 ? "A" : "B", "T" + std::to_string(k), truth[i].inverse() * place});
   }
   Progress progress;
-  const RegistrationResult result = register_scans({scan_to_place("A", scan_at(tube, truth[0], 1), off(truth[0], {0.2, 0.2, 0}, 1)),
-                                                    scan_to_place("B", scan_at(tube, truth[1], 2), off(truth[1], {-0.2, 0.1, 0}, -1))},
-                                                   context, {}, progress);
+  const RegistrationResult result =
+      register_scans({scan_to_place("A", scan_at(tube, truth[0], 1), off(truth[0], {0.2, 0.2, 0}, 1)),
+                      scan_to_place("B", scan_at(tube, truth[1], 2), off(truth[1], {-0.2, 0.1, 0}, -1))},
+                     context, {}, progress);
   EXPECT_TRUE(result.accepted);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(distance_between_m(result.scans[i].local_from_scan, truth[i]), 0.003);
   EXPECT_LT(result.control_rms_m, 0.002);
@@ -123,8 +125,8 @@ TEST(Registration, AScanWithoutGuessAndTargetsIsSaidNotGuessed) {
   Progress progress;
   RegistrationOptions options;
   options.spacing_m = 0.2;
-  const RegistrationResult result =
-      register_scans({scan_to_place("A", scan_at(rock, pose, 1, 20000), pose), lost}, context_along(rock.design()), options, progress);
+  const RegistrationResult result = register_scans({scan_to_place("A", scan_at(rock, pose, 1, 20000), pose), lost},
+                                                   context_along(rock.design()), options, progress);
   EXPECT_FALSE(result.scans[1].placed);
   EXPECT_EQ(result.scans[1].placed_by, "not placed");
   EXPECT_FALSE(result.accepted);
@@ -139,7 +141,9 @@ TEST(Registration, ATargetWithoutControlPointIsRefused) {
   EXPECT_THROW(register_scans({scan_to_place("A", cloud, Pose::Identity())}, context, {}, progress), Error);
 }
 
-Matrix6d tight() { return Matrix6d::Identity() * 1e6; }
+Matrix6d tight() {
+  return Matrix6d::Identity() * 1e6;
+}
 
 TEST(PoseGraph, ClosesALoopAndIgnoresAPlantedWrongPair) {
   std::vector<Pose> truth;
@@ -155,7 +159,8 @@ TEST(PoseGraph, ClosesALoopAndIgnoresAPlantedWrongPair) {
   }
   Progress progress;
   const PoseGraphResult clean = solve_pose_graph(graph, progress);
-  for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_LT(distance_between_m(clean.local_from_scan[i], truth[i]), 1e-4);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_LT(distance_between_m(clean.local_from_scan[i], truth[i]), 1e-4);
   graph.pairs.push_back({4, 0, off(truth[0].inverse() * truth[4], {1.0, 0.5, 0.0}, 5.0), tight()});
   const PoseGraphResult planted = solve_pose_graph(graph, progress);
   for (std::size_t i = 0; i < truth.size(); ++i)
@@ -168,7 +173,8 @@ TEST(PoseGraph, ControlGivesDatumAndCovariance) {
   PoseGraph graph;
   graph.local_from_scan = {off(truth, {0.3, 0.2, 0.1}, 2.0)};
   graph.control_sigma_m = 0.002;
-  for (const Eigen::Vector3d& p : {Eigen::Vector3d(5, 0, 0), Eigen::Vector3d(0, 5, 1), Eigen::Vector3d(-5, 0, 2), Eigen::Vector3d(0, -5, 3)})
+  for (const Eigen::Vector3d& p :
+       {Eigen::Vector3d(5, 0, 0), Eigen::Vector3d(0, 5, 1), Eigen::Vector3d(-5, 0, 2), Eigen::Vector3d(0, -5, 3)})
     graph.control.push_back({0, p, truth * p});
   Progress progress;
   const PoseGraphResult result = solve_pose_graph(graph, progress);

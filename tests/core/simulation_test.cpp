@@ -10,7 +10,8 @@ namespace {
 
 using namespace tests;
 
-/// The as-built outline of the simulated rock by a fine sweep along the line, to check the closed formulas with polygons.
+/// The as-built outline of the simulated rock by a fine sweep along the line, to check the closed formulas with
+/// polygons.
 Polygon rock_polygon(const RockTunnel& rock, double chainage_m) {
   const ProfileStretch stretch(rock.profile(), 0.5);
   Polygon polygon;

@@ -39,7 +39,8 @@ TEST(Surface, OfATubeHasItsAreaTwoEndsAndNormalsInwards) {
   const MeshArrays arrays = mesh_arrays(mesh);
   for (std::size_t i = 0; i < arrays.triangles.size(); i += 97) {
     const auto& t = arrays.triangles[i];
-    const Eigen::Vector3d normal = (arrays.points[t[1]] - arrays.points[t[0]]).cross(arrays.points[t[2]] - arrays.points[t[0]]);
+    const Eigen::Vector3d normal =
+        (arrays.points[t[1]] - arrays.points[t[0]]).cross(arrays.points[t[2]] - arrays.points[t[0]]);
     EXPECT_LT(normal.dot(Eigen::Vector3d(arrays.points[t[0]].x(), 0, arrays.points[t[0]].z())), 0.0);
   }
 }
@@ -60,7 +61,8 @@ TEST(VoxelGrid, DoesNotDependOnTheOrderAndIsEven) {
   PointCloud cloud;
   const Random random(4);
   for (std::uint64_t i = 0; i < 20000; ++i)
-    cloud.points.emplace_back(static_cast<float>(random.uniform(3 * i, -3, 3)), static_cast<float>(random.uniform(3 * i + 1, -3, 3)), 0.05F);
+    cloud.points.emplace_back(static_cast<float>(random.uniform(3 * i, -3, 3)),
+                              static_cast<float>(random.uniform(3 * i + 1, -3, 3)), 0.05F);
   const PointCloud a = even_subsample(cloud, 0.5);
   std::reverse(cloud.points.begin(), cloud.points.end());
   EXPECT_EQ(a.points, even_subsample(cloud, 0.5).points);
