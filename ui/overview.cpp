@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/deviation_map_drawing.h"
 #include "render/report_views.h"
 
 namespace adit::ui {
@@ -44,16 +45,8 @@ void add_clouds(Overview& overview, const app::JobState& state) {
 void add_mesh(Overview& overview, const app::JobState& state) {
   if (!state.mesh || state.mesh->mesh.triangles.empty()) return;
   overview.mesh = render::SceneMesh{state.mesh->mesh, state.mesh->deviation_m};
-  if (!state.mesh->deviation_m.empty()) overview.scale = render::deviation_scale(state.mesh->deviation_m);
-}
-
-void add_extent(Overview& overview) {
-  for (const render::SceneCloud& cloud : overview.clouds)
-    for (std::size_t i = 0; i < cloud.points.size(); i += cloud.points.size() / 2000 + 1)
-      overview.extent.push_back(cloud.points[i].cast<double>());
-  if (!overview.mesh) return;
-  const auto& points = overview.mesh->surface.points;
-  for (std::size_t i = 0; i < points.size(); i += points.size() / 5000 + 1) overview.extent.push_back(points[i]);
+  if (!state.mesh->deviation_m.empty())
+    overview.scale = render::deviation_scale(state.map ? render::seen_deviations(*state.map) : state.mesh->deviation_m);
 }
 
 Eigen::Vector3d direction_at(const std::vector<Eigen::Vector3d>& axis, std::size_t i) {
@@ -64,10 +57,23 @@ Eigen::Vector3d direction_at(const std::vector<Eigen::Vector3d>& axis, std::size
 
 }  // namespace
 
+std::vector<Eigen::Vector3d> Overview::extent(SceneShows shows) const {
+  std::vector<Eigen::Vector3d> some;
+  if (shows == SceneShows::deviation && mesh) {
+    const auto& points = mesh->surface.points;
+    for (std::size_t i = 0; i < points.size(); i += points.size() / 5000 + 1) some.push_back(points[i]);
+    return some;
+  }
+  for (const render::SceneCloud& cloud : clouds)
+    for (std::size_t i = 0; i < cloud.points.size(); i += cloud.points.size() / 2000 + 1)
+      some.push_back(cloud.points[i].cast<double>());
+  return some;
+}
+
 Eigen::Vector3d Overview::heading() const {
   if (axis.size() > 1 && (axis.back() - axis.front()).head<2>().norm() > 0.5) return axis.back() - axis.front();
   Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : extent) box.extend(p);
+  for (const Eigen::Vector3d& p : extent(SceneShows::scans)) box.extend(p);
   if (box.isEmpty() || box.sizes().x() >= box.sizes().y()) return Eigen::Vector3d::UnitX();
   return Eigen::Vector3d::UnitY();
 }
@@ -76,7 +82,6 @@ Overview overview_of(const app::JobState& state) {
   Overview overview;
   add_clouds(overview, state);
   add_mesh(overview, state);
-  add_extent(overview);
   render::ReportContent content;
   content.results = &state.results;
   overview.axis = render::local_axis(content);

@@ -15,24 +15,25 @@ namespace adit::ui {
 /// Points of all scans together in a scene.
 inline constexpr std::size_t overview_points = 500000;
 
+enum class SceneShows { scans, deviation };
+
 struct Overview {
   std::vector<render::SceneCloud> clouds;  ///< the placed scans
   std::vector<std::size_t> scans;          ///< of each cloud
   std::optional<render::SceneMesh> mesh;
-  std::optional<render::DeviationScale> scale;  ///< of the mesh's deviations
+  std::optional<render::DeviationScale> scale;  ///< of deviations, as on the map
   std::vector<Eigen::Vector3d> axis;            ///< one point for each section; else the stations in order
   std::vector<render::SceneLabel> stations;
-  std::vector<Eigen::Vector3d> extent;  ///< a few thousand of all points, to fit a camera to
 
   bool empty() const { return clouds.empty() && !mesh; }
+  /// A few thousand of the points that are shown, to fit a camera to.
+  std::vector<Eigen::Vector3d> extent(SceneShows shows) const;
   /// Horizontal direction from the beginning to the end.
   Eigen::Vector3d heading() const;
 };
 
 /// Reads the overview of every store. Throws Error when a store is damaged.
 Overview overview_of(const app::JobState& state);
-
-enum class SceneShows { scans, deviation };
 
 /// The selected scan in its colour and the others pale; without a selection all in their colours.
 render::Scene scene_of(const Overview& overview, SceneShows shows, std::optional<std::size_t> selected_scan);

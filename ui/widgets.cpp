@@ -76,7 +76,8 @@ void nothing_yet(const std::string& words) {
 }
 
 bool begin_table(const char* name, std::initializer_list<const char*> columns) {
-  constexpr ImGuiTableFlags flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp;
+  constexpr ImGuiTableFlags flags =
+      ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoHostExtendX;
   if (!ImGui::BeginTable(name, static_cast<int>(columns.size()), flags)) return false;
   for (const char* column : columns) ImGui::TableSetupColumn(column);
   ImGui::TableHeadersRow();

@@ -23,6 +23,7 @@ app::StepContext HeadlessWindow::step_context() {
 void HeadlessWindow::frame(ui::Workspace& workspace) {
   ImGui::GetIO().DeltaTime = 1.0F / 30.0F;
   gui_.draw(screen_, workspace);
+  glFinish();  // nothing swaps buffers here: frames would queue up without end
 }
 
 bool HeadlessWindow::frames_until(ui::Workspace& workspace, const std::function<bool()>& done, double most_s) {
@@ -30,7 +31,7 @@ bool HeadlessWindow::frames_until(ui::Workspace& workspace, const std::function<
   while (!done()) {
     if (Clock::now() > end) return false;
     frame(workspace);
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return true;
 }

@@ -21,7 +21,7 @@ class HeadlessWindow {
 
   /// One frame at 30 a second.
   void frame(ui::Workspace& workspace);
-  /// Frames until `done`, a hundredth of a second apart; false when it does not come about in time.
+  /// Frames until `done`, a fiftieth of a second apart; false when it does not come about in time.
   bool frames_until(ui::Workspace& workspace, const std::function<bool()>& done, double most_s);
   /// Frames until the script has been played and nothing is under way any more.
   bool settle(ui::Workspace& workspace, double most_s = 60.0);

@@ -30,7 +30,7 @@ wait_for() {  # WHAT SECONDS COMMAND...
   done
   say "$what did not come about"; exit 1
 }
-colours() { import -window root -depth 4 "$1" && [ "$(convert "$1" -depth 4 -format %k info:)" -ge "$2" ]; }
+colours() { import -window root "$1" && [ "$(convert "$1" -depth 4 -format %k info:)" -ge "$2" ]; }
 
 wait_for "the window" 60 xdotool search --name Adit
 window=$(xdotool search --name Adit | head -1)

@@ -127,6 +127,7 @@ TEST_F(WindowSlow, CancelAnswersWithinASecond) {
     ASSERT_TRUE(window.frames_until(
         workspace, [&] { return workspace.outcome() != Outcome::none; }, 10.0));
     EXPECT_LT(seconds_since(start), 1.0) << "cancelled " << after_s << " s after the start";
+    std::printf("cancelled %.1f s after the start in %.3f s\n", after_s, seconds_since(start));
     EXPECT_EQ(workspace.outcome(), Outcome::cancelled);
     ASSERT_TRUE(window.settle(workspace));
   }
@@ -202,6 +203,15 @@ TEST_F(WindowSlow, TakesUpWhatWasRunAndShowsEveryPanel) {
   ASSERT_TRUE(workspace.section_index().has_value()) << workspace.error();
   ASSERT_TRUE(workspace.state()->results.volume.has_value());
   for (const StepTime& time : workspace.state()->results.timing) EXPECT_TRUE(time.fresh) << time.step;
+
+  const Overview overview = overview_of(*workspace.state());
+  std::size_t points = 0;
+  for (const auto& cloud : overview.clouds) points += cloud.points.size();
+  EXPECT_GT(points, 100000U);
+  EXPECT_LE(points, overview_points + 100U);
+  const Eigen::Vector3d middle = workspace.state()->results.import.origin.to_local(workspace.section()->axis_site);
+  for (const Eigen::Vector3d& p : ring_of(*workspace.state(), *workspace.section()))
+    EXPECT_LT((p - middle).norm(), 9.0) << "the section stands about its axis";
 
   render::Picture before = window.picture();
   for (const char* tab : {"Map", "Sections", "Registration", "Volumes"}) {

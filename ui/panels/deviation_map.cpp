@@ -13,6 +13,7 @@
 namespace adit::ui {
 namespace {
 
+constexpr double margin_mm = 3.0;
 constexpr double most_height_px = 8000.0;  // long tunnels: their strips are drawn lower
 
 /// Place on the paper under the mouse.
@@ -24,6 +25,17 @@ render::PaperPoint mouse_on(const Paper& paper, const ImVec2& corner) {
 
 bool holds(const render::Rect& rect, const render::PaperPoint& at) {
   return at.x() >= rect.left && at.x() <= rect.right() && at.y() >= rect.top && at.y() <= rect.bottom();
+}
+
+/// Height of the drawing on paper of a width, margins counted.
+double height_mm(const DeviationMap& map, double width_mm) {
+  return 2.0 * margin_mm + render::deviation_map_height(map, width_mm - 2.0 * margin_mm);
+}
+
+/// Decided before the bar takes its width, so that the drawing does not change size for its sake.
+bool needs_scrolling(const DeviationMap& map) {
+  const Paper paper = paper_of(ImGui::GetContentRegionAvail(), scale_of_theme());
+  return height_mm(map, paper.width_mm) > paper.height_mm;
 }
 
 std::string words_of(const DeviationMap& map, double chainage_m, double share_across) {
@@ -46,11 +58,11 @@ MapPanel::Drawn MapPanel::drawn(const app::JobState& state, const ImVec2& size_p
   const DeviationMap& map = *state.map;
   const double width = result.paper.width_mm;
   const double most = most_height_px / result.paper.pixels_per_mm();
-  result.paper.height_mm = std::min(6.0 + render::deviation_map_height(map, width - 6.0), most);
+  result.paper.height_mm = std::min(height_mm(map, width), most);
   render::MapTexts texts{.line = "profile (offset 0)", .marks = {}, .rounds = state.job.rounds};
   if (state.design) texts.marks = render::line_marks(*state.design, map);
   auto canvas = render::Canvas::raster(width, result.paper.height_mm, result.paper.dots_per_inch);
-  const render::Rect rect = result.paper.rect().inset(3.0);
+  const render::Rect rect = result.paper.rect().inset(margin_mm);
   render::draw_deviation_map(canvas, rect, map, render::deviation_scale(render::seen_deviations(map)), texts);
   result.strips = render::map_strips(rect, map);
   result.picture = canvas.finish_picture();
@@ -106,7 +118,11 @@ void MapPanel::draw(Workspace& workspace) {
                                                          : "No map has been made yet.");
     return;
   }
-  ImGui::BeginChild("map", {0.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysVerticalScrollbar);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, theme::paper);
+  ImGui::BeginChild(
+      "map", {0.0F, 0.0F}, false,
+      needs_scrolling(*state->map) ? ImGuiWindowFlags_AlwaysVerticalScrollbar : ImGuiWindowFlags_NoScrollbar);
+  ImGui::PopStyleColor();
   const ImVec2 room = ImGui::GetContentRegionAvail();
   if (room.x > 64.0F && room.y > 64.0F) draw_anew(state, {std::floor(room.x), std::floor(room.y)});
   if (!error_.empty()) ImGui::TextColored(theme::bad, "%s", error_.c_str());

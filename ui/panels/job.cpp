@@ -54,12 +54,15 @@ void scan_row(Workspace& workspace, const app::JobState& state, std::size_t i) {
 }
 
 void draw_scans(Workspace& workspace, const app::JobState& state) {
-  constexpr ImGuiTableFlags flags = ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingStretchProp;
+  constexpr ImGuiTableFlags flags = ImGuiTableFlags_BordersInnerH;
   if (!ImGui::BeginTable("scans", 4, flags)) return;
-  ImGui::TableSetupColumn("    scan");
-  ImGui::TableSetupColumn("points");
-  ImGui::TableSetupColumn("placed by");
-  ImGui::TableSetupColumn("\u03c3 mm");
+  const auto column = [](const char* name, float share) {
+    ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthStretch, share);
+  };
+  column("    scan", 0.8F);
+  column("points", 1.1F);
+  column("placed by", 1.6F);
+  column("\u03c3 mm", 1.1F);
   ImGui::TableHeadersRow();
   if (ImGui::IsItemHovered())  // the last header
     ImGui::SetTooltip("standard deviation along, across, up");
@@ -87,6 +90,7 @@ void draw_finding(const Finding& finding) {
   ImGui::TextUnformatted(finding.words.c_str());
   ImGui::PopTextWrapPos();
   if (!finding.mend.empty()) remark(finding.mend);
+  ImGui::Spacing();
 }
 
 void draw_findings(const app::JobState& state) {
@@ -115,7 +119,7 @@ void draw_job(Workspace& workspace) {
   if (state == nullptr) {
     heading(workspace.job_path().filename().string());
     const bool reading = workspace.doing() == Workspace::Doing::taking_up;
-    remark(reading ? "reading the job" : "the job could not be read");
+    remark(reading ? "reading the job" : "the job has not been read");
   } else {
     heading(state->job.name.empty() ? "job without a name" : state->job.name);
     if (const std::string words = people(state->job); !words.empty()) remark(words);

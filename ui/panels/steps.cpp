@@ -43,7 +43,7 @@ StepWords words_of(const Workspace& workspace, const app::Step& step, std::size_
 }
 
 void draw_states(const Workspace& workspace) {
-  if (!ImGui::BeginTable("steps", 2, ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingStretchProp)) return;
+  if (!ImGui::BeginTable("steps", 2, ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_SizingStretchSame)) return;
   const std::vector<app::Step> steps = app::all_steps();
   for (std::size_t i = 0; i < steps.size(); ++i) {
     cell(steps[i].name);
@@ -59,7 +59,7 @@ void draw_buttons(Workspace& workspace) {
   const float width = (ImGui::GetContentRegionAvail().x - 2.0F * ImGui::GetStyle().ItemSpacing.x) / 3.0F;
   if (button(workspace.script(), "Run", doing == Workspace::Doing::nothing, width)) workspace.run();
   ImGui::SameLine();
-  const bool can_cancel = doing == Workspace::Doing::running && !workspace.cancelling();
+  const bool can_cancel = doing != Workspace::Doing::nothing && !workspace.cancelling();
   if (button(workspace.script(), "Cancel", can_cancel, width)) workspace.cancel();
   ImGui::SameLine();
   if (button(workspace.script(), "Close job", doing == Workspace::Doing::nothing, width)) workspace.close();

@@ -70,7 +70,7 @@ void View3D::take_overview(const Workspace& workspace) {
 
 void View3D::fit() {
   const double aspect = static_cast<double>(size_.x / size_.y);
-  camera_ = render::oblique(overview_.extent, overview_.heading(), aspect);
+  camera_ = render::oblique(overview_.extent(shown()), overview_.heading(), aspect);
   picture_old_ = true;
 }
 
@@ -95,8 +95,8 @@ void View3D::draw_tools(Workspace& workspace) {
     }
     ImGui::SameLine();
   };
-  look("Fit", [&] { return render::oblique(overview_.extent, overview_.heading(), aspect); });
-  look("Top", [&] { return render::top_view(overview_.extent, overview_.heading(), aspect); });
+  look("Fit", [&] { return render::oblique(overview_.extent(shown()), overview_.heading(), aspect); });
+  look("Top", [&] { return render::top_view(overview_.extent(shown()), overview_.heading(), aspect); });
   look("Along", [&] { return inside_view(overview_, workspace.section_index().value_or(0)); });
   ImGui::TextColored(theme::quiet, "%s",
                      busy() ? "reading the points" : "drag: turn   right drag: shift   wheel: nearer");
@@ -133,7 +133,7 @@ void View3D::draw_over(const Workspace& workspace, const ImVec2& corner, const I
   for (const render::SceneLabel& station : overview_.stations)
     if (const auto pixel = render::pixel_of(camera_, width, height, station.position))
       draw_label(on_screen(corner, *pixel), station.text);
-  if (shows_ == SceneShows::deviation && overview_.scale)
+  if (shown() == SceneShows::deviation && overview_.scale)
     draw_legend(*overview_.scale, {corner.x + size.x, corner.y + size.y});
   list.PopClipRect();
 }
@@ -148,7 +148,7 @@ void View3D::draw_picture(Workspace& workspace, const ImVec2& size) {
   if (std::exchange(fit_wanted_, false)) fit();
   if (scan_ != workspace.scan() || std::exchange(scene_changed_, false)) {
     scan_ = workspace.scan();
-    view_->set_scene(scene_of(overview_, overview_.mesh ? shows_ : SceneShows::scans, scan_));
+    view_->set_scene(scene_of(overview_, shown(), scan_));
     picture_old_ = true;
   }
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -176,7 +176,9 @@ void View3D::draw(Workspace& workspace) {
   take_overview(workspace);
   if (!error_.empty()) ImGui::TextColored(theme::bad, "%s", error_.c_str());
   if (overview_.empty() && !busy()) {
-    nothing_yet("No scans have been registered yet: press Run.");
+    const bool running = workspace.doing() == Workspace::Doing::running;
+    nothing_yet(running ? "The scans have not been registered yet."
+                        : "The scans have not been registered yet: press Run.");
     return;
   }
   draw_tools(workspace);

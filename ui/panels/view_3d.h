@@ -28,6 +28,8 @@ class View3D {
   void draw_over(const Workspace& workspace, const ImVec2& corner, const ImVec2& size) const;
   void listen();
   void fit();
+  /// What can be shown of what is wanted.
+  SceneShows shown() const { return overview_.mesh ? shows_ : SceneShows::scans; }
 
   std::shared_ptr<const app::JobState> state_;  ///< of the overview asked for last
   std::filesystem::path job_;                   ///< the camera was fitted to
