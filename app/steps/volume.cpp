@@ -42,7 +42,7 @@ void add_round(JobState& state, const JobRound& round, VolumeResult& result, Pro
   volume.number = round.number;
   volume.drilled_m = round.drilled_m;
   volume.volume = compute_volume(map, *state.design, state.job.lines.front(), from, to, state.stretch().interval_m,
-                                 state.results.registration.scans, state.job.options.profiling, progress);
+                                 state.results.registration, state.job.options.profiling, progress);
   result.rounds.push_back(std::move(volume));
 }
 
@@ -53,7 +53,7 @@ void run(JobState& state, const StepContext&, Progress& progress) {
   for (const DesignLine& line : state.job.lines) {
     Progress part = progress.part(share, "volumes against " + line.name);
     result.lines.push_back(compute_volume(map, *state.design, line, map.from_m, map.to_m, state.stretch().interval_m,
-                                          state.results.registration.scans, state.job.options.profiling, part));
+                                          state.results.registration, state.job.options.profiling, part));
     const Volume& volume = result.lines.back();
     if (std::abs(volume.closure_m3) > 1e-3)
       result.findings.push_back(

@@ -70,7 +70,7 @@ std::vector<double> section_chainages(double from_m, double to_m, double interva
 /// Volumes of a stretch against one line: thin slices, each dV = ds * (A - k M) with plan curvature k (right positive),
 /// area A and first moment M about the axis. Average end area and prismoidal from sections every interval_m beside it.
 Volume compute_volume(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line, double from_m,
-                      double to_m, double interval_m, const std::vector<PlacedScan>& poses,
+                      double to_m, double interval_m, const RegistrationResult& registration,
                       const ProfilingOptions& options, Progress& progress);
 
 }  // namespace adit

@@ -49,14 +49,17 @@ void add_cell(Sums& sums, const MapCell& cell, const ProfilePoint& at, double ar
     sums.noise_m6 += std::pow(area_m2 * static_cast<double>(cell.spread_m), 2) / std::max(1U, cell.count);
 }
 
-PoseSigma common_sigma(const std::vector<PlacedScan>& poses) {
+/// Of the scans together: the worst of each, and the datum that they share.
+PoseSigma common_sigma(const RegistrationResult& registration) {
   PoseSigma worst;
-  for (const PlacedScan& scan : poses) {
+  for (const PlacedScan& scan : registration.scans) {
     if (!scan.placed) continue;
     worst.along_m = std::max(worst.along_m, scan.sigma.along_m);
     worst.across_m = std::max(worst.across_m, scan.sigma.across_m);
     worst.up_m = std::max(worst.up_m, scan.sigma.up_m);
   }
+  for (double* sigma_m : {&worst.along_m, &worst.across_m, &worst.up_m})
+    *sigma_m = std::hypot(*sigma_m, registration.datum_sigma_m);
   return worst;
 }
 
@@ -69,7 +72,7 @@ double end_difference_m2(const std::vector<double>& row_amount_m2) {
 }  // namespace
 
 double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line, double from_m,
-                       double to_m, VolumePart part, const std::vector<PlacedScan>& poses,
+                       double to_m, VolumePart part, const RegistrationResult& registration,
                        const ProfilingOptions& options) {
   Sums sums;
   std::vector<double> row_amount_m2;
@@ -93,7 +96,7 @@ double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, cons
     }
     row_amount_m2.push_back(amount);
   }
-  const PoseSigma sigma = common_sigma(poses);
+  const PoseSigma sigma = common_sigma(registration);
   const double mean = sums.measured_m2 > 0.0 ? sums.deviation_sum / sums.measured_m2 : 0.0;
   const double variance = sums.measured_m2 > 0.0 ? sums.deviation_square / sums.measured_m2 - mean * mean : 0.0;
   const double rock_variance = std::max(variance, 0.0);

@@ -112,7 +112,7 @@ void add_section_methods(Volume& volume, const DeviationMap& map, const DesignTu
 }  // namespace
 
 Volume compute_volume(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line, double from_m,
-                      double to_m, double interval_m, const std::vector<PlacedScan>& poses,
+                      double to_m, double interval_m, const RegistrationResult& registration,
                       const ProfilingOptions& options, Progress& progress) {
   Volume volume;
   volume.line = line.name;
@@ -135,7 +135,7 @@ Volume compute_volume(const DeviationMap& map, const DesignTunnel& design, const
                       (volume.slices.overbreak_m3 - volume.slices.underbreak_m3);
   add_section_methods(volume, map, design, interval_m, options);
   const auto sigma = [&](VolumePart part) {
-    return volume_sigma_m3(map, design, line, from_m, to_m, part, poses, options);
+    return volume_sigma_m3(map, design, line, from_m, to_m, part, registration, options);
   };
   volume.sigma_excavated_m3 = sigma(VolumePart::excavated);
   volume.sigma_overbreak_m3 = sigma(VolumePart::over);

@@ -239,6 +239,23 @@ void name_undetermined(PlacedScan& scan, const RegistrationOptions& options, Fin
   }
 }
 
+/// A scan that ended far from its guess: the guess was wrong, or the match is.
+void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,
+                        Findings& findings) {
+  if (node.placed_by != "guess") return;
+  const double moved_m = distance_between_m(node.start, scan.local_from_scan);
+  const double turned_deg = deg_from_rad(rotation_between_rad(node.start, scan.local_from_scan));
+  if (moved_m <= 3.0 * options.guess_sigma_m && turned_deg <= 3.0 * options.guess_sigma_deg) return;
+  char words[200];
+  std::snprintf(words, sizeof words,
+                "ended %.2f m and %.1f degrees from its guess, more than three times what guesses are worth", moved_m,
+                turned_deg);
+  // Control decides which of the two was wrong; without it a person must.
+  const Severity severity = node.control.size() >= 3 ? Severity::warning : Severity::decision;
+  findings.push_back(
+      {severity, "scan " + scan.name, words, "check its pose in job.json and look at the scans from above"});
+}
+
 void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
                  const PoseGraphResult& solved, const RegistrationContext& context,
                  const RegistrationOptions& options) {
@@ -260,6 +277,7 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
                                  "check its guess, or survey three targets"});
     }
     name_undetermined(scan, options, result.findings);
+    compare_with_guess(scan, nodes[i], options, result.findings);
   }
 }
 
@@ -296,6 +314,27 @@ void prepare_nodes(std::vector<Node>& nodes, const std::vector<ScanToPlace>& sca
   }
 }
 
+/// Without control the place of the whole survey is only as good as the guess of its datum scan, and so is every number
+/// against a design.
+void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,
+                 const RegistrationOptions& options) {
+  if (std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.control.size() >= 3; })) return;
+  double span_m = 0.0;
+  for (const Node& node : nodes) span_m = std::max(span_m, distance_between_m(node.start, nodes.front().start));
+  result.datum_sigma_m = std::hypot(options.guess_sigma_m, 0.5 * span_m * rad_from_deg(options.guess_sigma_deg));
+  if (!context.axis_direction || result.datum_sigma_m <= options.undetermined_sigma_m) return;
+  char words[240];
+  std::snprintf(
+      words, sizeof words,
+      "there is no control: the survey stands in the site as the guess of its first scan says (sigma %.0f mm), "
+      "and so do overbreak and underbreak",
+      1000.0 * result.datum_sigma_m);
+  result.findings.push_back(
+      {Severity::decision, "datum", words,
+       "survey three targets, or state in registration.guess_sigma_m and guess_sigma_deg how well the "
+       "station is known"});
+}
+
 }  // namespace
 
 RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const RegistrationContext& context,
@@ -317,6 +356,7 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   const PoseGraphResult solved = adjusted(nodes, candidates, result.pairs, options, result.findings, adjusting);
   place_nodes(result, nodes, candidates, solved, context, options);
   report_control(result, nodes, scans, context, solved, options);
+  judge_datum(result, nodes, context, options);
   for (const auto& scan : result.scans) {
     if (!scan.placed)
       result.findings.push_back({Severity::decision, "scan " + scan.name,

@@ -95,6 +95,9 @@ struct RegistrationResult {
   std::vector<PairResult> pairs;
   std::vector<ControlResidual> control;
   double control_rms_m = 0.0;
+  /// How well the whole survey stands in the site frame, beside the sigmas of the scans, which are relative to the datum:
+  /// zero with control; without, what the guess of the datum scan is worth (position, and direction over half the span).
+  double datum_sigma_m = 0.0;
   Findings findings;
 };
 
