@@ -216,8 +216,13 @@ Truth demo_truth(const Demo& demo, const std::vector<Pose>& poses, Progress& pro
 }
 
 void check_folder(const fs::path& folder) {
-  if (fs::exists(folder) && !fs::is_directory(folder)) throw Error("this is a file", folder.string(), "name a folder");
-  if (!fs::exists(folder) || fs::is_empty(folder) || fs::exists(folder / "truth.json")) return;
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  if (!fs::is_directory(folder, error)) throw Error("this is a file", folder.string(), "name a folder");
+  io::remove_leftovers(folder);
+  const bool empty = fs::is_empty(folder, error);
+  if (error) throw Error("the folder cannot be read: " + error.message(), folder.string(), "name another");
+  if (empty || fs::exists(folder / "truth.json", error)) return;
   throw Error("the folder is not empty and holds no demo", folder.string(), "name a new folder");
 }
 
@@ -229,20 +234,24 @@ void make_demo(const fs::path& folder, const DemoOptions& options, Progress& pro
   planning.check();
   const Demo demo = plan_demo(options);
   std::error_code error;
-  fs::create_directories(folder / "scans", error);
+  fs::create_directories(folder, error);
   if (error) throw Error("the folder cannot be made: " + error.message(), folder.string(), "choose another");
   std::vector<Pose> poses;
   for (int i = 0; i < options.stations; ++i) poses.push_back(true_pose(demo, i));
+  // The truth first, the job last: a demo that was cut short is known as one and has nothing to run.
+  Progress truth = progress.part(0.05, "writing the truth");
+  io::write_file_atomically(folder / "truth.json", io::truth_text(demo_truth(demo, poses, truth)));
+  fs::remove(folder / "job.json", error);
+  fs::create_directories(folder / "scans", error);
+  io::remove_leftovers(folder / "scans");
   Progress scanning = progress.part(0.9, "scanning");
   for (int i = 0; i < options.stations; ++i) {
     Progress part = scanning.part(1.0 / options.stations, "scanning");
     write_scan(demo, poses[static_cast<std::size_t>(i)], i, folder, part);
   }
-  Progress rest = progress.part(0.05, "writing the truth");
   io::write_file_atomically(folder / "axis.xml", io::landxml_text(demo.axis));
   io::write_dxf_profile(folder / "profile.dxf", demo.tunnel.profile());
   if (options.control) write_control(demo, poses, folder);
-  io::write_file_atomically(folder / "truth.json", io::truth_text(demo_truth(demo, poses, rest)));
   io::write_file_atomically(folder / "job.json", io::job_text(demo_job(demo, poses)));
 }
 

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 
 #include "app/truth_comparison.h"
 #include "app/version.h"
@@ -15,7 +17,6 @@
 #include "io/csv_tables.h"
 #include "io/results_json.h"
 #include "io/sha256.h"
-#include "io/text_file.h"
 
 namespace adit::app {
 namespace {
@@ -32,7 +33,8 @@ class FolderLock {
     const fs::path file = folder / ".lock";
     descriptor_ = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
     if (descriptor_ < 0)
-      throw Error("the folder cannot be written", folder.string(), "check its permissions and the free space");
+      throw Error(std::string("the folder cannot be written (") + std::strerror(errno) + ")", folder.string(),
+                  errno == ENOSPC ? "free some space, or choose another with --out" : "choose another with --out");
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
     ::close(descriptor_);
     throw Error("another run is writing to this folder", folder.string(),
@@ -46,16 +48,10 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-fs::path key_file(const JobState& state, const Step& step) {
-  return state.out / "steps" / (step.name + ".key");
-}
-
-bool taken_up(JobState& state, const Step& step, const std::string& key) {
-  const fs::path file = key_file(state, step);
-  if (!fs::exists(file)) return false;
+bool taken_up(JobState& state, const Step& step, const std::string& key, Progress& progress) {
+  if (!StepRecord(state.out, step.name).holds(key, progress)) return false;
   try {
-    if (io::read_text_file(file) != key) return false;
-    step.take_up(state);
+    step.take_up(state, progress);
     return true;
   } catch (const Error&) {
     return false;  // what an earlier run left is not whole: the step simply runs again
@@ -64,14 +60,13 @@ bool taken_up(JobState& state, const Step& step, const std::string& key) {
 
 void run_step(JobState& state, const Step& step, const std::string& key, const StepContext& context,
               Progress& progress) {
-  std::error_code ignored;
-  fs::remove(key_file(state, step), ignored);  // until the step is whole again
+  const StepRecord record(state.out, step.name);
+  record.remove();
   try {
-    step.run(state, context, progress);
+    record.write(key, step.run(state, context, progress), progress);
   } catch (const Error& error) {
     throw error.where().empty() ? error.at(step.name) : error;
   }
-  io::write_file_atomically(key_file(state, step), key);
 }
 
 std::uint64_t peak_memory_bytes() {
@@ -89,8 +84,13 @@ void write_results(const JobState& state) {
 
 void create_folder(const fs::path& folder) {
   std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw Error("this is a file, not a folder", folder.string(), "choose another with --out");
   fs::create_directories(folder, error);
-  if (error) throw Error("the folder cannot be made: " + error.message(), folder.string(), "choose another with --out");
+  if (error)
+    throw Error("the folder cannot be made: " + error.message(), folder.string(),
+                error == std::errc::no_space_on_device ? "free some space, or choose another with --out"
+                                                       : "choose another with --out");
 }
 
 /// One step, or what an earlier run left of it. False when it is stale and nothing may run.
@@ -99,7 +99,7 @@ bool do_step(JobState& state, const Step& step, const RunOptions& options, Progr
   const std::string key = io::sha256_of_bytes(step.depends_on(state));
   state.keys[step.name] = key;
   const auto start = Clock::now();
-  const bool fresh = taken_up(state, step, key);
+  const bool fresh = taken_up(state, step, key, progress);
   if (!fresh && options.only_take_up) return false;
   if (!fresh) run_step(state, step, key, options.context, progress);
   state.results.timing.push_back({step.name, std::chrono::duration<double>(Clock::now() - start).count(), fresh});
@@ -124,8 +124,10 @@ std::shared_ptr<JobState> run_job(const fs::path& job_file, const RunOptions& op
   state->results.version = version;
   std::optional<FolderLock> lock;
   if (!options.only_take_up) {
-    create_folder(state->out / "steps");
+    create_folder(state->out);
     lock.emplace(state->out);
+    create_folder(state->out / "steps");
+    for (const char* folder : {"", "steps", "import", "report"}) io::remove_leftovers(state->out / folder);
   }
   const std::vector<Step> steps = all_steps();
   const std::vector<double> bounds = step_bounds(*state);

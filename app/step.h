@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/job_state.h"
+#include "app/step_record.h"
 #include "core/foundation/options.h"
 #include "core/foundation/progress.h"
 #include "render/gl_context.h"
@@ -27,9 +28,10 @@ struct Step {
   bool (*wanted)(const JobState&);
   /// Text of everything the step depends on; its hash decides whether the step runs again.
   std::string (*depends_on)(const JobState&);
-  void (*run)(JobState&, const StepContext&, Progress&);
+  /// Does the work and names the files it left; they are compared bit by bit before they are taken up.
+  LeftFiles (*run)(JobState&, const StepContext&, Progress&);
   /// Takes up what run() left. Throws Error when it is not whole; the step then runs.
-  void (*take_up)(JobState&);
+  void (*take_up)(JobState&, Progress&);
 };
 
 Step import_step();
@@ -42,7 +44,7 @@ Step report_step();
 /// All steps in order.
 std::vector<Step> all_steps();
 
-/// File that holds what a step left.
+/// File that holds the numbers a step left; relative to state.out in a step's list of files.
 std::filesystem::path step_file(const JobState& state, const std::string& name);
 
 /// Present values of an options struct as text, for depends_on.

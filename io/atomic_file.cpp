@@ -5,8 +5,11 @@
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -35,6 +38,18 @@ fs::path temporary_name(const fs::path& target, unsigned attempt) {
   const std::string ending = ".adit-" + std::to_string(::getpid()) + "-" + std::to_string(counter++ + attempt) + ".tmp";
   // File systems end a name at 255 bytes.
   return folder_of(target) / ("." + target.filename().string().substr(0, 200) + ending);
+}
+
+/// The process that named a temporary; empty for any other file.
+std::optional<pid_t> maker_of(const std::string& name) {
+  constexpr std::string_view mark = ".adit-";
+  const auto at = name.rfind(mark);
+  if (!name.starts_with('.') || !name.ends_with(".tmp") || at == std::string::npos) return std::nullopt;
+  pid_t maker = 0;
+  const char* const begin = name.data() + at + mark.size();
+  const auto read = std::from_chars(begin, name.data() + name.size(), maker);
+  if (read.ec != std::errc{} || *read.ptr != '-' || maker <= 0) return std::nullopt;
+  return maker;
 }
 
 std::string mend_for(int error_number) {
@@ -121,6 +136,14 @@ void AtomicFile::close() {
 
 void AtomicFile::fail(const std::string& what_is_wrong, int error_number) const {
   throw Error(what_is_wrong + " (" + std::strerror(error_number) + ")", target_.string(), mend_for(error_number));
+}
+
+void remove_leftovers(const fs::path& folder) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto maker = maker_of(entry.path().filename().string());
+    if (maker && ::kill(*maker, 0) != 0 && errno == ESRCH) ::unlink(entry.path().c_str());
+  }
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {

@@ -37,6 +37,9 @@ class AtomicFile {
   std::string buffer_;
 };
 
+/// Removes from a folder (not those below it) the temporaries of processes that were killed.
+void remove_leftovers(const std::filesystem::path& folder);
+
 /// The whole content at once.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 

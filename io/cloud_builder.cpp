@@ -55,7 +55,7 @@ void CloudBuilder::refuse(const Eigen::Vector3d& position, const std::string& wh
                                          : std::string("infinite");
   };
   throw Error("a point is not finite (" + word(0) + ", " + word(1) + ", " + word(2) + ")", where,
-              "export without such points, or have them dropped");
+              "export without such points, or drop them with adit convert --drop-invalid");
 }
 
 void CloudBuilder::close_chunk() {

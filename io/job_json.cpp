@@ -5,6 +5,7 @@
 #include "core/foundation/angle.h"
 #include "io/json_place.h"
 #include "io/options_json.h"
+#include "io/text_place.h"
 
 namespace adit::io {
 namespace {
@@ -17,9 +18,8 @@ std::string existing_file(const JsonPlace& place, const fs::path& folder) {
   if (name.empty()) place.refuse("the name of a file is needed", "write it relative to the job's folder");
   std::error_code error;
   if (!fs::exists(folder / name, error))
-    place.refuse("there is no file \"" + name + "\"",
-                 "paths are relative to the job's folder: put it into " + folder.string());
-  if (fs::is_directory(folder / name, error)) place.refuse("\"" + name + "\" is a folder", "name a file");
+    place.refuse("there is no file " + quoted_word(name), "paths are relative to the folder of job.json");
+  if (fs::is_directory(folder / name, error)) place.refuse(quoted_word(name) + " is a folder", "name a file");
   return name;
 }
 
@@ -77,6 +77,8 @@ std::vector<DesignLine> read_lines(const JsonPlace& place) {
   std::set<std::string> names;
   for (const JsonPlace& one : place.items()) {
     one.only_keys({"name", "offset"});
+    if (one.at("name").text().empty())
+      one.at("name").refuse("a line needs a name", "every number names its line: write one");
     lines.push_back({one.at("name").text(), one.at("offset").number_between(-10.0, 10.0, "m")});
     if (!names.insert(lines.back().name).second)
       one.refuse("two lines have this name", "every number names its line: rename one");

@@ -24,6 +24,35 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
   return std::to_string(line) + ":" + std::to_string(column);
 }
 
+/// Says plainly what a text is that no JSON begins with, and what of it is no UTF-8.
+void expect_json_text(const std::string& text, const std::string& file) {
+  const auto begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (text.empty()) throw Error("the file is empty", file, "write it again");
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw Error("the text is UTF-16", file, "save it as UTF-8");
+  if (begin == std::string::npos || (text[begin] != '{' && text[begin] != '[' && text[begin] != '/'))
+    throw Error("this is not JSON: it does not begin with {", file + ":1:1",
+                "name a job.json, or the folder that holds one");
+}
+
+[[noreturn]] void refuse_syntax(const std::string& text, std::size_t byte, const std::string& file) {
+  const bool foreign = byte > 0 && byte <= text.size() && static_cast<unsigned char>(text[byte - 1]) >= 0x80U;
+  const std::string place = file + ":" + line_and_column(text, byte);
+  if (foreign) throw Error("a letter is not written in UTF-8", place, "save the file as UTF-8");
+  throw Error("this is not JSON", place, "look for a missing comma, quote or bracket just before");
+}
+
+/// The parser's words end with the number in quotes.
+[[noreturn]] void refuse_number(const std::string& text, const std::string& words, const std::string& file) {
+  const auto end = words.rfind('\'');
+  const auto begin = end == std::string::npos || end == 0 ? end : words.rfind('\'', end - 1);
+  if (begin == std::string::npos || begin == end) throw Error("a number is too large", file, "check its unit");
+  const std::string number = words.substr(begin + 1, end - begin - 1);
+  const auto at = text.find(number);
+  throw Error("the number " + number.substr(0, 40) + " is too large",
+              at == std::string::npos ? file : file + ":" + line_and_column(text, at + 1), "check its unit");
+}
+
 /// Refuses an object with the same key twice: which one counts would be a guess.
 struct DoubleKeys {
   std::vector<std::set<std::string>> open;
@@ -49,15 +78,15 @@ nlohmann::json parse_json_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw Error("the file cannot be opened", file.string(), "check its permissions");
   const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  expect_json_text(text, file.string());
   DoubleKeys keys;
   nlohmann::json json;
   try {
     json = nlohmann::json::parse(text, std::ref(keys), true, true);
   } catch (const nlohmann::json::parse_error& error) {
-    throw Error("this is not JSON", file.string() + ":" + line_and_column(text, error.byte),
-                "look for a missing comma, quote or bracket just before");
-  } catch (const nlohmann::json::exception& error) {
-    throw Error(std::string("this is not JSON: ") + error.what(), file.string(), "check numbers and characters");
+    refuse_syntax(text, error.byte, file.string());
+  } catch (const nlohmann::json::out_of_range& error) {
+    refuse_number(text, error.what(), file.string());
   }
   if (!keys.twice.empty())
     throw Error("the key \"" + keys.twice + "\" stands twice in one object", file.string(), "remove one of them");
@@ -135,7 +164,10 @@ std::int64_t JsonPlace::whole_number() const {
 
 std::string JsonPlace::text() const {
   if (!value_->is_string()) refuse("a text in quotes is needed, found " + found(), "put it in quotes");
-  return value_->get<std::string>();
+  const auto& text = value_->get_ref<const std::string&>();
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20U || c == 0x7FU; }))
+    refuse("a control character in " + found(), "take out line ends, tabs and the like");
+  return text;
 }
 
 bool JsonPlace::yes_or_no() const {

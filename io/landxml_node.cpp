@@ -106,7 +106,8 @@ LandXmlDocument::LandXmlDocument(const std::filesystem::path& file) : name(file.
                 "export it again");
   }
   const LandXmlNode root(*this, xml.document_element());
-  if (root.name() != "LandXML") throw Error("the file is no LandXML: its root is <" + root.name() + ">", name);
+  if (root.name() != "LandXML")
+    throw Error("the file is no LandXML: its root is <" + root.name() + ">", name, "export the axis as LandXML");
   units = read_landxml_units(root);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/foundation/error.h"
+#include "core/foundation/parallel.h"
 #include "io/atomic_file.h"
 
 namespace adit::io {
@@ -125,6 +126,16 @@ void PointStore::expect_intact(std::size_t tile, std::size_t prefix) const {
   int before = checked_[tile].load(std::memory_order_relaxed);
   while (before < wanted && !checked_[tile].compare_exchange_weak(before, wanted)) {
   }
+}
+
+void PointStore::expect_intact(const Progress& progress) const {
+  parallel_for_each_index(
+      tile_count(),
+      [&](std::size_t tile) {
+        progress.check();
+        expect_intact(tile, header_.tiles[tile].count);
+      },
+      1);
 }
 
 PointCloud PointStore::read(std::size_t tile, std::size_t prefix) const {

@@ -36,6 +36,9 @@ class PointStore : public TileSource {
   const Eigen::Vector3d& offset() const { return header_.offset; }
   const std::optional<Pose>& file_pose() const { return header_.file_pose; }
   const std::string& source_sha256() const { return header_.source_sha256; }
+  /// Reads every tile once. Error as the constructor when one is damaged.
+  void expect_intact(const Progress& progress) const;
+
   std::uint64_t no_returns() const { return header_.no_returns; }
   std::uint64_t points() const { return header_.points; }
 

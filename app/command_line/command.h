@@ -23,6 +23,10 @@ inline constexpr int exit_bad_input = 2;
 inline constexpr int exit_our_fault = 3;
 inline constexpr int exit_cancelled = 130;
 
+/// For arguments that name a file or a folder: no name is no place to look.
+inline const CLI::Validator some_name([](const std::string& name) { return name.empty() ? "a name is needed" : ""; },
+                                      "", "some_name");
+
 using Action = std::function<int(const CommonOptions&, Progress&)>;
 
 /// Each declares its arguments on the sub-command and returns what to do after parsing.

@@ -28,10 +28,15 @@ Action declare_convert(CLI::App& command) {
     std::size_t scan = 0;
   };
   auto arguments = std::make_shared<Arguments>();
-  command.add_option("IN", arguments->in, "a scan (" + joined(io::readable_endings()) + ")")->required();
-  command.add_option("OUT", arguments->out, "its new file (" + joined(io::writable_endings()) + ")")->required();
+  command.add_option("IN", arguments->in, "a scan (" + joined(io::readable_endings()) + ")")
+      ->required()
+      ->check(some_name);
+  command.add_option("OUT", arguments->out, "its new file (" + joined(io::writable_endings()) + ")")
+      ->required()
+      ->check(some_name);
   command.add_option("--variant", arguments->write.variant, "PLY: ascii, little, big; PCD: ascii, binary, compressed");
-  command.add_option("--scan", arguments->scan, "which scan of a file that holds several, from 1");
+  command.add_option("--scan", arguments->scan, "which scan of a file that holds several, from 1")
+      ->check(CLI::Range(1, 1000000));
   command.add_flag("--drop-invalid", arguments->read.drop_invalid, "leave out points that are not finite");
   return [arguments](const CommonOptions& common, Progress& progress) {
     Progress reading = progress.part(0.6, "reading " + arguments->in);

@@ -21,8 +21,10 @@ Action declare_demo(CLI::App& command) {
     bool no_run = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  command.add_option("DIR", arguments->folder, "folder to make the job in")->required();
-  command.add_option("--seed", arguments->demo.seed, "every choice of chance follows from it")->capture_default_str();
+  command.add_option("DIR", arguments->folder, "folder to make the job in")->required()->check(some_name);
+  command.add_option("--seed", arguments->demo.seed, "every choice of chance follows from it")
+      ->check(CLI::Range(0.0, 1e15))
+      ->capture_default_str();
   command.add_option("--stations", arguments->demo.stations, "number of scans")
       ->check(CLI::Range(1, 40))
       ->capture_default_str();

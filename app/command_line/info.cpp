@@ -167,7 +167,7 @@ void print_plain(const json& object, int indent) {
 
 Action declare_info(CLI::App& command) {
   auto files = std::make_shared<std::vector<std::string>>();
-  command.add_option("FILE", *files, "scans, alignments, profiles, control files, jobs")->required();
+  command.add_option("FILE", *files, "scans, alignments, profiles, control files, jobs")->required()->check(some_name);
   return [files](const CommonOptions& common, Progress& progress) {
     for (const std::string& file : *files) {
       const json content = info(file, progress);

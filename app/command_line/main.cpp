@@ -1,11 +1,16 @@
 // adit: the table of commands, and the only place where errors become exit codes.
 
 #include <tbb/global_control.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <optional>
 #include <vector>
@@ -22,8 +27,22 @@ using namespace adit::app;
 
 std::atomic<bool> stop_wanted{false};
 
+constexpr unsigned patience_s = 1;
+
+/// Nothing but what a signal handler may do. The next run removes what a file that was being written leaves.
+[[noreturn]] void leave_at_once() {
+  constexpr char words[] = "adit: cancelled; finished steps are kept\n";
+  if (::write(STDERR_FILENO, words, sizeof words - 1) < 0) std::_Exit(exit_cancelled);
+  std::_Exit(exit_cancelled);
+}
+
+extern "C" void on_patience_gone(int) {
+  leave_at_once();
+}
+
 extern "C" void on_interrupt(int) {
-  if (stop_wanted.exchange(true)) std::_Exit(exit_cancelled);  // a second Ctrl-C does not wait
+  if (stop_wanted.exchange(true)) leave_at_once();  // a second Ctrl-C does not wait
+  ::alarm(patience_s);                              // some calls of libraries hear nothing for longer
 }
 
 struct Command {
@@ -51,6 +70,28 @@ std::vector<Command> commands() {
   };
 }
 
+/// One line, whatever the words hold.
+void print_error(std::string words) {
+  for (char& c : words)
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7F) c = '?';
+  std::fprintf(stderr, "adit: %s\n", words.c_str());
+}
+
+int refused_words(CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+  std::string known, command;
+  for (const CLI::App* sub : app.get_subcommands({})) {
+    known += (known.empty() ? "" : ", ") + sub->get_name();
+    if (argc > 1 && sub->get_name() == argv[1]) command = sub->get_name() + " ";
+  }
+  std::string words = error.what();
+  std::replace(words.begin(), words.end(), '\n', ' ');
+  if (command.empty() && argc > 1 && argv[1][0] != '-')
+    words = "\"" + std::string(argv[1]) + "\" is none of the commands " + known;
+  print_error("command line: " + words + "; see adit " + command + "--help");
+  return exit_bad_input;
+}
+
 int acted(const Action& action, const CommonOptions& common) {
   std::optional<tbb::global_control> limit;
   if (common.threads > 0)
@@ -60,15 +101,22 @@ int acted(const Action& action, const CommonOptions& common) {
   Progress progress(target);
   const auto say = [&](const std::string& words) {
     terminal.clear();
-    std::fprintf(stderr, "adit: %s\n", words.c_str());
+    print_error(words);
   };
   try {
-    return action(common, progress);
+    const int code = action(common, progress);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw Error(std::string("the output cannot be written (") + std::strerror(errno) + ")", "standard output",
+                  "free some space");
+    return code;
   } catch (const Cancelled&) {
     say("cancelled; finished steps are kept");
     return exit_cancelled;
   } catch (const Error& error) {
     say(error.what());
+    return exit_bad_input;
+  } catch (const std::filesystem::filesystem_error& error) {
+    say(error.path1().string() + ": " + error.code().message() + "; check the name and the permissions");
     return exit_bad_input;
   } catch (const std::bad_alloc&) {
     say("there is not enough memory for this job");
@@ -84,6 +132,7 @@ int acted(const Action& action, const CommonOptions& common) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGALRM, on_patience_gone);
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app("Adit: tunnel scans in, defensible overbreak and volumes out.", "adit");
   app.set_version_flag("--version", std::string("adit ") + version);
@@ -100,7 +149,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_good : exit_bad_input;
+    return refused_words(app, error, argc, argv);
   }
   for (const auto& [sub, action] : actions)
     if (sub->parsed()) return acted(action, common);

@@ -17,8 +17,8 @@ Action declare_run(CLI::App& command, const std::string& last_step) {
     std::string out;
   };
   auto arguments = std::make_shared<Arguments>();
-  command.add_option("JOB", arguments->job, "job.json or its folder")->required();
-  command.add_option("--out", arguments->out, "folder for everything derived (out beside job.json)");
+  command.add_option("JOB", arguments->job, "job.json or its folder")->required()->check(some_name);
+  command.add_option("--out", arguments->out, "folder for everything derived (out beside job.json)")->check(some_name);
   return [arguments, last_step](const CommonOptions& common, Progress& progress) {
     RunOptions options;
     options.out = arguments->out;

@@ -1,6 +1,7 @@
 // Scan files into point stores; the project origin.
 
 #include <cctype>
+#include <cstdio>
 
 #include "app/step.h"
 #include "core/cleaning/no_returns.h"
@@ -33,14 +34,27 @@ io::ScanData only_scan(const JobState& state, const JobScan& scan, Progress& pro
   return std::move(scans.front());
 }
 
+/// A scan in millimetres is hundreds of metres wide in every direction, and no tunnel is.
+void check_unit(const PointCloud& cloud, const std::string& file) {
+  constexpr double widest_tunnel_m = 400.0;
+  const double narrowest_m = middle_extent(cloud).minCoeff();
+  if (narrowest_m <= widest_tunnel_m) return;
+  char words[120];
+  std::snprintf(words, sizeof words,
+                "the points spread over %.0f m in every direction: the file seems to be in millimetres", narrowest_m);
+  throw Error(words, file, "export in metres");
+}
+
 void import_scan(JobState& state, std::size_t index, Progress& progress) {
   const JobScan& scan = state.job.scans[index];
   Progress reading = progress.part(0.6, "reading " + scan.file);
   io::ScanData data = only_scan(state, scan, reading);
   data.name = scan.name;
   if (data.offset.isZero()) data.no_returns += remove_no_returns(data.cloud);
+  const std::string file = (state.folder / scan.file).string();
   if (data.cloud.empty())
-    throw Error("no point is left after taking out pulses without echo", scan.file, "check the export");
+    throw Error("no point is left after taking out pulses without echo", file, "check the export");
+  check_unit(data.cloud, file);
   Progress writing = progress.part(0.4, "storing " + scan.name);
   io::write_point_store(store_file(state, index), std::move(data), state.input_sha256.at(scan.file), writing);
 }
@@ -98,7 +112,7 @@ void make_design(JobState& state) {
                        .relative_to(state.results.import.origin.position);
 }
 
-void run(JobState& state, const StepContext&, Progress& progress) {
+LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   std::filesystem::create_directories(state.out / "import");
   const double share = 1.0 / static_cast<double>(state.job.scans.size());
   for (std::size_t i = 0; i < state.job.scans.size(); ++i) {
@@ -108,10 +122,12 @@ void run(JobState& state, const StepContext&, Progress& progress) {
   open_stores(state);
   summarise(state);
   make_design(state);
+  return {};  // stores carry their own checksums
 }
 
-void take_up(JobState& state) {
+void take_up(JobState& state, Progress& progress) {
   open_stores(state);
+  for (const auto& store : state.stores) store->expect_intact(progress);
   summarise(state);
   make_design(state);
 }

@@ -61,7 +61,7 @@ void report_weak_coverage(ProfileResult& result) {
   result.findings.push_back({Severity::warning, "sections", words, "add a scan there"});
 }
 
-void run(JobState& state, const StepContext&, Progress& progress) {
+LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   const JobChainage stretch = state.stretch();
   Progress mapping = progress.part(0.9, "mapping deviations");
   MapResult mapped = map_deviations(placed_tiles(state), *state.design, stretch.from_m, stretch.to_m,
@@ -78,9 +78,10 @@ void run(JobState& state, const StepContext&, Progress& progress) {
   state.results.profile = std::move(result);
   io::write_deviation_map(state.out / "steps" / "map.bin", *state.map);
   io::write_file_atomically(step_file(state, "profile"), io::step_text(*state.results.profile));
+  return {"steps/map.bin", "steps/profile.json"};
 }
 
-void take_up(JobState& state) {
+void take_up(JobState& state, Progress&) {
   ProfileResult result;
   io::read_step_text(io::read_text_file(step_file(state, "profile")), result);
   state.map = io::read_deviation_map(state.out / "steps" / "map.bin");

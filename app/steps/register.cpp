@@ -1,6 +1,10 @@
 // Poses of all scans: pairs, control, one adjustment.
 
+#include <cstdio>
+
 #include "app/step.h"
+#include "core/foundation/error.h"
+#include "core/geometry/bounding_box.h"
 #include "io/atomic_file.h"
 #include "io/step_json.h"
 #include "io/text_file.h"
@@ -70,14 +74,34 @@ RegistrationContext context_of(const JobState& state) {
   return context;
 }
 
-void run(JobState& state, const StepContext&, Progress& progress) {
+/// A target far outside its scan's points was taken in another frame or another unit.
+void check_targets_in_scans(const JobState& state) {
+  for (const auto& target : state.targets) {
+    for (std::size_t i = 0; i < state.stores.size(); ++i) {
+      if (target.scan != state.job.scans[i].name) continue;
+      const io::PointStore& store = *state.stores[i];
+      BoundingBox box;
+      for (std::size_t tile = 0; tile < store.tile_count(); ++tile) box.extend(store.box(tile));
+      const double outside = box.exteriorDistance(Eigen::Vector3d(target.position - store.offset()));
+      if (outside <= 20.0 + box.diagonal().norm()) continue;
+      char words[80];
+      std::snprintf(words, sizeof words, " lies %.0f m outside the points of its scan ", outside);
+      throw Error("target " + target.id + words + target.scan, (state.folder / state.job.targets).string(),
+                  "write metres in the frame of the scan's file");
+    }
+  }
+}
+
+LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
+  check_targets_in_scans(state);
   std::vector<ScanToPlace> scans;
   for (std::size_t i = 0; i < state.stores.size(); ++i) scans.push_back(scan_to_place(state, i));
   state.results.registration = register_scans(scans, context_of(state), state.job.options.registration, progress);
   io::write_file_atomically(step_file(state, "register"), io::step_text(state.results.registration));
+  return {"steps/register.json"};
 }
 
-void take_up(JobState& state) {
+void take_up(JobState& state, Progress&) {
   io::read_step_text(io::read_text_file(step_file(state, "register")), state.results.registration);
 }
 

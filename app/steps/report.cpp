@@ -75,23 +75,23 @@ render::ReportContent content_of(const JobState& state) {
   return content;
 }
 
-void run(JobState& state, const StepContext& context, Progress& progress) {
+LeftFiles run(JobState& state, const StepContext& context, Progress& progress) {
   if (!context.make_gl_context) throw Error("this program has no way to draw 3D pictures", "report", "use adit report");
   const auto gl = context.make_gl_context();
   const render::ReportFiles files = render::draw_report(content_of(state), *gl, progress);
   fs::remove_all(state.out / "report");  // pictures of sections that are no longer cut
   fs::create_directories(state.out / "report");
-  for (const auto& picture : files.pictures)
-    io::write_file_atomically(
-        picture.name == "map.png" ? state.out / picture.name : state.out / "report" / picture.name, picture.png);
-  io::write_file_atomically(state.out / "report.pdf", files.pdf);
-  io::write_file_atomically(step_file(state, "report"), "{}\n");
+  LeftFiles left;
+  for (const auto& picture : files.pictures) {
+    left.push_back(picture.name == "map.png" ? fs::path(picture.name) : fs::path("report") / picture.name);
+    io::write_file_atomically(state.out / left.back(), picture.png);
+  }
+  left.emplace_back("report.pdf");
+  io::write_file_atomically(state.out / left.back(), files.pdf);
+  return left;
 }
 
-void take_up(JobState& state) {
-  if (!fs::is_regular_file(state.out / "report.pdf") || !fs::is_regular_file(step_file(state, "report")))
-    throw Error("the report is not there", (state.out / "report.pdf").string(), "run the report step");
-}
+void take_up(JobState&, Progress&) {}
 
 }  // namespace
 

@@ -1,9 +1,11 @@
 // The registered points as a triangle mesh.
 
 #include <cmath>
+#include <cstdio>
 
 #include "app/placed_tiles.h"
 #include "app/step.h"
+#include "core/foundation/error.h"
 #include "core/geometry/statistics.h"
 #include "core/geometry/voxel_grid.h"
 #include "core/surface/reconstruct.h"
@@ -68,6 +70,15 @@ std::vector<Eigen::Vector3d> surface_points(const JobState& state, const std::ve
   return points;
 }
 
+[[noreturn]] void refuse_no_points(const JobState& state) {
+  const JobChainage stretch = state.stretch();
+  char words[160];
+  std::snprintf(words, sizeof words, "no point of the scans lies near the design line between chainage %.3f and %.3f",
+                stretch.from_m, stretch.to_m);
+  throw Error(words, state.file.string(),
+              "check the poses of the scans, their unit, the axis and the chainage");
+}
+
 void add_deviations(JobState& state, SurfaceResult& result) {
   if (!state.design) return;
   std::vector<double> known;
@@ -83,12 +94,13 @@ void add_deviations(JobState& state, SurfaceResult& result) {
   result.mesh.sigma_deviation_m = robust_sigma(known);
 }
 
-void run(JobState& state, const StepContext&, Progress& progress) {
+LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   const std::vector<PlacedTiles> scans = placed_tiles(state);
   std::vector<Eigen::Vector3d> viewpoints;
   for (const PlacedTiles& scan : scans) viewpoints.push_back(scan.local_from_scan.translation());
   Progress thinning = progress.part(0.3, "thinning");
   const auto points = surface_points(state, scans, thinning);
+  if (points.empty() && state.design) refuse_no_points(state);
   Progress joining = progress.part(0.7, "joining " + std::to_string(points.size()) + " points to a surface");
   const Mesh mesh = reconstruct(points, viewpoints, state.job.options.surface, joining);
   SurfaceResult result;
@@ -98,9 +110,10 @@ void run(JobState& state, const StepContext&, Progress& progress) {
   state.results.surface = result;
   io::write_mesh_ply(state.out / "mesh.ply", *state.mesh, state.results.import.origin.position);
   io::write_file_atomically(step_file(state, "surface"), io::step_text(result));
+  return {"mesh.ply", "steps/surface.json"};
 }
 
-void take_up(JobState& state) {
+void take_up(JobState& state, Progress&) {
   SurfaceResult result;
   io::read_step_text(io::read_text_file(step_file(state, "surface")), result);
   state.mesh = io::read_mesh_ply(state.out / "mesh.ply", state.results.import.origin.position);

@@ -46,7 +46,7 @@ void add_round(JobState& state, const JobRound& round, VolumeResult& result, Pro
   result.rounds.push_back(std::move(volume));
 }
 
-void run(JobState& state, const StepContext&, Progress& progress) {
+LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   VolumeResult result;
   const DeviationMap& map = *state.map;
   const double share = 1.0 / static_cast<double>(state.job.lines.size() + state.job.rounds.size());
@@ -67,9 +67,10 @@ void run(JobState& state, const StepContext&, Progress& progress) {
   }
   state.results.volume = std::move(result);
   io::write_file_atomically(step_file(state, "volume"), io::step_text(*state.results.volume));
+  return {"steps/volume.json"};
 }
 
-void take_up(JobState& state) {
+void take_up(JobState& state, Progress&) {
   VolumeResult result;
   io::read_step_text(io::read_text_file(step_file(state, "volume")), result);
   state.results.volume = std::move(result);

@@ -77,7 +77,8 @@ void check(const HorizontalElement& element, std::size_t i) {
                       std::isfinite(element.end_curvature_per_m);
   if (!finite) throw Error(name + " holds a number that is not finite");
   if (strongest_curvature(element) > tightest_curvature_per_m) {
-    throw Error(name + " has a radius under " + short_number(1.0 / tightest_curvature_per_m) + " m");
+    throw Error(name + " has a radius under " + short_number(1.0 / tightest_curvature_per_m) + " m", {},
+                "check its radius and unit");
   }
   if (element.length_m <= 0.0) throw Error(name + " has no length", {}, "leave elements of no length out");
 }
@@ -102,7 +103,8 @@ PlanPoint element_point(const HorizontalElement& element, double along_m) {
 HorizontalAlignment::HorizontalAlignment(std::vector<HorizontalElement> elements, double start_chainage_m)
     : elements_(std::move(elements)), start_chainage_m_(start_chainage_m) {
   if (elements_.empty()) throw Error("the plan axis has no elements");
-  if (!std::isfinite(start_chainage_m)) throw Error("the start chainage of the plan axis is not finite");
+  if (!std::isfinite(start_chainage_m))
+    throw Error("the start chainage of the plan axis is not finite", {}, "write it in metres");
   double length = 0.0;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     check(elements_[i], i);

@@ -84,7 +84,8 @@ NumberedRing joined(const std::vector<ProfileSegment>& segments) {
     check_numbers(s);
     if ((s.segment.end - s.segment.start).norm() >= shortest_m) ring.push_back(s);
   }
-  if (ring.size() < 2) throw Error("the profile has no inside: it needs at least two segments");
+  if (ring.size() < 2)
+    throw Error("the profile has no inside: it needs at least two segments", {}, "draw a closed line");
   check_joints(ring);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     ring[(i + 1) % ring.size()].segment.start = ring[i].segment.end;

@@ -24,7 +24,7 @@ void check(const VerticalPoint& point) {
                       std::isfinite(point.curve_length_m) && std::isfinite(point.radius_m);
   if (!finite) throw Error("a point of the grade line holds a number that is not finite");
   if (point.curve == VerticalCurveKind::parabola && point.curve_length_m < 0.0) {
-    throw Error(point_at(point) + " has a curve of negative length");
+    throw Error(point_at(point) + " has a curve of negative length", {}, "write its length without a sign");
   }
 }
 
@@ -53,7 +53,7 @@ VerticalAlignment::CurveExtent extent(const VerticalPoint& a, const VerticalPoin
 }
 
 void check_order(const std::vector<VerticalPoint>& points) {
-  if (points.size() < 2) throw Error("the grade line needs at least two points");
+  if (points.size() < 2) throw Error("the grade line needs at least two points", {}, "export the whole grade line");
   for (const VerticalPoint& point : points) check(point);
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].chainage_m <= points[i - 1].chainage_m) {

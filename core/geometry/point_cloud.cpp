@@ -1,5 +1,9 @@
 #include "core/geometry/point_cloud.h"
 
+#include <algorithm>
+
+#include "core/geometry/statistics.h"
+
 namespace adit {
 namespace {
 
@@ -38,6 +42,19 @@ void append(PointCloud& cloud, const PointCloud& more) {
   append_values(cloud.colour, more.colour, first);
   append_values(cloud.normals, more.normals, first);
   cloud.points.insert(cloud.points.end(), more.points.begin(), more.points.end());
+}
+
+Eigen::Vector3d middle_extent(const PointCloud& cloud) {
+  constexpr std::size_t enough = 100000;
+  Eigen::Vector3d extent = Eigen::Vector3d::Zero();
+  if (cloud.empty()) return extent;
+  const std::size_t every = std::max<std::size_t>(1, cloud.size() / enough);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < cloud.size(); i += every) values.push_back(static_cast<double>(cloud.points[i][axis]));
+    extent[axis] = quantile(values, 0.95) - quantile(values, 0.05);
+  }
+  return extent;
 }
 
 }  // namespace adit

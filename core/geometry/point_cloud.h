@@ -31,4 +31,8 @@ PointCloud selected(const PointCloud& cloud, const std::vector<std::size_t>& ind
 /// Adds the points of `more` behind those of `cloud`. An attribute that only one of the two has is dropped.
 void append(PointCloud& cloud, const PointCloud& more);
 
+/// How far the middle nine tenths of the points reach along x, y and z [m]; zero for an empty cloud. Deaf to stray
+/// points.
+Eigen::Vector3d middle_extent(const PointCloud& cloud);
+
 }  // namespace adit

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/foundation/error.h"
+#include "core/foundation/options.h"
 
 namespace adit {
 namespace {
@@ -22,7 +23,7 @@ LinePolygon line_polygon(const Profile& profile, const DesignLine& line) {
   if (line.offset_m != 0.0) {
     auto rings = offset_ring(result.ring, line.offset_m);
     if (rings.size() != 1)
-      throw Error("the line \"" + line.name + "\" at an offset of " + std::to_string(line.offset_m) +
+      throw Error("the line \"" + line.name + "\" at an offset of " + short_number(line.offset_m) +
                       " m from the profile is not one closed line",
                   "lines", "use a smaller offset");
     result.ring = std::move(rings.front());

@@ -135,7 +135,8 @@ std::vector<Matrix6d> covariances(Problem& problem, const PoseGraph& graph) {
   std::vector<std::pair<const double*, const double*>> wanted;
   for (const auto& block : problem.blocks) wanted.emplace_back(block.data(), block.data());
   if (!covariance.Compute(wanted, &problem.ceres))
-    throw Error("the covariance of the adjustment could not be computed");
+    throw Error("the covariance of the adjustment could not be computed", {},
+                "check poses and control points for contradictions");
   std::vector<Matrix6d> result(problem.blocks.size(), Matrix6d::Zero());
   for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
     if (graph.datum == i) continue;
@@ -162,7 +163,9 @@ PoseGraphResult solve_pose_graph(const PoseGraph& graph, Progress& progress) {
   options.callbacks.push_back(&check);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem.ceres, &summary);
-  if (!summary.IsSolutionUsable()) throw Error("the adjustment of the scans did not converge: " + summary.message);
+  if (!summary.IsSolutionUsable())
+    throw Error("the adjustment of the scans did not converge: " + summary.message, {},
+                "check poses and control points for contradictions");
 
   PoseGraphResult result;
   for (std::size_t i = 0; i < problem.blocks.size(); ++i) {

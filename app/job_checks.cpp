@@ -1,0 +1,144 @@
+#include "app/job_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/foundation/error.h"
+#include "core/profiling/overbreak.h"
+
+namespace adit::app {
+namespace {
+
+constexpr double tolerance_m = 1e-3;
+constexpr double farthest_from_axis_m = 20000.0;  // no scan or control point of a tunnel lies farther beside its axis
+constexpr double farthest_profile_m = 100.0;      // nor does its profile
+constexpr double most_cells = 2e8;                // of the deviation map; 16 bytes each
+
+std::string job_key(const JobState& state, const std::string& key) {
+  return state.file.string() + ": " + key;
+}
+
+void check_range(const JobState& state, const std::string& key, double from_m, double to_m) {
+  const Alignment& axis = *state.alignment;
+  if (from_m >= axis.from_m() - tolerance_m && to_m <= axis.to_m() + tolerance_m) return;
+  char words[200];
+  std::snprintf(words, sizeof words, "%.3f to %.3f lies outside the axis \"%s\", which runs from %.3f to %.3f", from_m,
+                to_m, axis.name().substr(0, 80).c_str(), axis.from_m(), axis.to_m());
+  throw Error(words, job_key(state, key), "choose chainages on the axis");
+}
+
+/// Plan distance to the nearest of many places on the axis, [m].
+double distance_to_axis_m(const Alignment& axis, const Eigen::Vector2d& place) {
+  const double from = axis.horizontal().from_m();
+  const double length = axis.horizontal().to_m() - from;
+  const int steps = static_cast<int>(std::clamp(length / 100.0, 1.0, 2000.0));
+  double nearest = std::numeric_limits<double>::max();
+  for (int i = 0; i <= steps; ++i)
+    nearest = std::min(nearest, (axis.horizontal().at(from + length * i / steps).position - place).norm());
+  return nearest;
+}
+
+void check_near_axis(const JobState& state, const Eigen::Vector3d& place, const std::string& what,
+                     const std::string& where) {
+  const double distance = distance_to_axis_m(*state.alignment, place.head<2>());
+  if (distance <= farthest_from_axis_m) return;
+  const bool swapped = distance_to_axis_m(*state.alignment, {place.y(), place.x()}) <= farthest_from_axis_m;
+  char words[100];
+  std::snprintf(words, sizeof words, " lies %.0f km from the axis", distance / 1000.0);
+  throw Error(what + words, where,
+              swapped ? "east and north seem to be swapped, here or in " + state.job.alignment
+                      : "check its coordinates, and those of " + state.job.alignment);
+}
+
+void check_places(const JobState& state) {
+  for (std::size_t i = 0; i < state.job.scans.size(); ++i)
+    if (const auto& position = state.job.scans[i].position)
+      check_near_axis(state, *position, "scan " + state.job.scans[i].name,
+                      job_key(state, "scans[" + std::to_string(i) + "].pose.position"));
+  for (const ControlPoint& point : state.control)
+    check_near_axis(state, point.position, "control point " + point.id, (state.folder / state.job.control).string());
+}
+
+void check_profiles(const JobState& state) {
+  for (std::size_t i = 0; i < state.profiles.size(); ++i) {
+    const double distance = state.profiles[i].profile.box().exteriorDistance(Eigen::Vector2d(0.0, 0.0));
+    if (distance <= farthest_profile_m) continue;
+    char words[100];
+    std::snprintf(words, sizeof words, "the profile lies %.0f m from the axis", distance);
+    throw Error(words, (state.folder / state.job.profiles[i].file).string(),
+                "draw it about the axis: offsets and heights are counted from there");
+  }
+  if (state.stretch().from_m >= state.profiles.front().from_m - tolerance_m) return;
+  char words[120];
+  std::snprintf(words, sizeof words, "no profile holds before %.3f, and the job begins at %.3f",
+                state.profiles.front().from_m, state.stretch().from_m);
+  throw Error(words, job_key(state, "profile"), "give the first profile a smaller \"from\"");
+}
+
+/// Lines that vanish and maps that no memory holds.
+void check_lines_and_cells(const JobState& state) {
+  const JobChainage stretch = state.stretch();
+  const auto& options = state.job.options.profiling;
+  double longest = 0.0;
+  for (const ProfileFrom& profile : state.profiles) {
+    longest = std::max(longest, profile.profile.length_m());
+    for (std::size_t i = 0; i < state.job.lines.size(); ++i) {
+      try {
+        static_cast<void>(line_polygon(profile.profile, state.job.lines[i]));
+      } catch (const Error& error) {
+        throw Error(error.what_is_wrong(), job_key(state, "lines[" + std::to_string(i) + "].offset"), error.mend());
+      }
+    }
+  }
+  const double cells = (stretch.to_m - stretch.from_m) / options.slice_m * longest / options.cell_m;
+  if (cells <= most_cells) return;
+  char words[120];
+  std::snprintf(words, sizeof words, "the deviation map would hold %.0f million cells, %.0f million are the most",
+                cells / 1e6, most_cells / 1e6);
+  throw Error(words, job_key(state, "chainage"),
+              "choose a shorter stretch, or larger slice_m and cell_m in options.profiling");
+}
+
+void check_design(const JobState& state) {
+  const Job& job = state.job;
+  const std::string file = state.file.string();
+  if (!job.profiles.empty() && !state.alignment)
+    throw Error("\"profile\" without \"alignment\"", file, "name the alignment file, too");
+  if (job.chainage && !state.has_design())
+    throw Error("\"chainage\" without \"alignment\" and \"profile\"", file, "name both files, too");
+  if (!state.alignment) return;
+  if (job.chainage) check_range(state, "chainage", job.chainage->from_m, job.chainage->to_m);
+  for (std::size_t i = 0; i < job.rounds.size(); ++i)
+    check_range(state, "rounds[" + std::to_string(i) + "]", job.rounds[i].from_m, job.rounds[i].to_m);
+  check_places(state);
+  if (!state.has_design()) return;
+  check_profiles(state);
+  check_lines_and_cells(state);
+}
+
+void check_targets(const JobState& state) {
+  const std::string file = (state.folder / state.job.targets).string();
+  for (const auto& target : state.targets) {
+    const bool known_scan = std::any_of(state.job.scans.begin(), state.job.scans.end(),
+                                        [&](const JobScan& scan) { return scan.name == target.scan; });
+    if (!known_scan)
+      throw Error("target " + target.id + " belongs to scan \"" + target.scan + "\", which the job does not have", file,
+                  "use the names of the job's scans");
+    const bool known_point = std::any_of(state.control.begin(), state.control.end(),
+                                         [&](const ControlPoint& point) { return point.id == target.id; });
+    if (!known_point)
+      throw Error("target " + target.id + " of scan " + target.scan + " has no control point", file,
+                  "add it to " + state.job.control + " or remove the target");
+  }
+}
+
+}  // namespace
+
+void check_job(const JobState& state) {
+  check_design(state);
+  check_targets(state);
+}
+
+}  // namespace adit::app
