@@ -61,8 +61,7 @@ std::string sections_csv(const Results& results) {
 
 std::string volumes_csv(const Results& results) {
   std::string csv =
-      "stretch,line,line_offset_m,from_m,to_m,method,design_m3,excavated_m3,overbreak_m3,underbreak_m3,sigma_excavated_"
-      "m3,"
+      "stretch,line,line_offset_m,from_m,to_m,method,design_m3,excavated_m3,overbreak_m3,underbreak_m3,sigma_excavated_m3,"
       "sigma_overbreak_m3,sigma_underbreak_m3,coverage,interpolated_m2,unseen_m2\n";
   if (!results.volume) return csv;
   for (const Volume& volume : results.volume->lines) add_volume(csv, "total", volume);

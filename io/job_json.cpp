@@ -122,6 +122,28 @@ void check_names(const Job& job, const JsonPlace& scans) {
     if (!names.insert(scan.name).second) scans.refuse("two scans are named \"" + scan.name + "\"", "rename one");
 }
 
+/// Members of every group, by group.
+json options_json(JobOptions options) {
+  json groups = json::object();
+  for_each_group(options, [&](const char* group, auto& members) {
+    OptionsToJson writer;
+    describe(writer, members);
+    groups[group] = writer.json;
+  });
+  return groups;
+}
+
+/// Only what differs from the defaults.
+json changed_options(const JobOptions& options) {
+  const json standard = options_json(JobOptions{});
+  const json own = options_json(options);
+  json changed = json::object();
+  for (const auto& [group, members] : own.items())
+    for (const auto& [name, value] : members.items())
+      if (standard[group][name] != value) changed[group][name] = value;
+  return changed;
+}
+
 }  // namespace
 
 Job read_job(const fs::path& file) {
@@ -196,24 +218,7 @@ std::string job_text(const Job& job) {
     if (round.drilled_m > 0.0) one["drilled"] = round.drilled_m;
     root["rounds"].push_back(one);
   }
-  JobOptions standard;
-  json changed = json::object();
-  JobOptions own = job.options;
-  std::vector<json> defaults;
-  for_each_group(standard, [&](const char*, auto& members) {
-    OptionsToJson writer;
-    describe(writer, members);
-    defaults.push_back(writer.json);
-  });
-  std::size_t i = 0;
-  for_each_group(own, [&](const char* group, auto& members) {
-    OptionsToJson writer;
-    describe(writer, members);
-    for (const auto& [name, value] : writer.json.items())
-      if (defaults[i][name] != value) changed[group][name] = value;
-    ++i;
-  });
-  if (!changed.empty()) root["options"] = changed;
+  if (const json changed = changed_options(job.options); !changed.empty()) root["options"] = changed;
   return root.dump(2) + "\n";
 }
 

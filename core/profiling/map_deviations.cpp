@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <optional>
 #include <tuple>
 
@@ -187,6 +188,50 @@ void fill_map_gaps(DeviationMap& map, const Mapper& mapper, double gap_m) {
       4);
 }
 
+std::vector<TileRef> tiles_of(const std::vector<PlacedTiles>& scans, const Alignment& axis) {
+  std::vector<TileRef> tiles;
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    for (std::size_t t = 0; t < scans[i].points->tile_count(); ++t)
+      if (const auto ref = tile_reach(scans[i], i, t, axis)) tiles.push_back(*ref);
+  return tiles;
+}
+
+/// Fills the rows [first, last) of the map from the tiles that may reach them.
+void map_slab(MapResult& result, const Mapper& mapper, const std::vector<TileRef>& tiles, std::size_t first,
+              std::size_t last, const Progress& progress) {
+  const double from = result.map.row_chainage(first) - result.map.step_s_m;
+  const double to = result.map.row_chainage(last - 1) + result.map.step_s_m;
+  std::vector<TileRef> here;
+  std::copy_if(tiles.begin(), tiles.end(), std::back_inserter(here),
+               [&](const TileRef& tile) { return tile.to_m >= from && tile.from_m <= to; });
+  std::vector<TileEntries> parts(here.size());
+  parallel_for_each_index(
+      here.size(),
+      [&](std::size_t k) {
+        progress.check();
+        parts[k] = mapper.entries_of(here[k], first, last);
+      },
+      1);
+  std::vector<Entry> entries;
+  for (const TileEntries& part : parts) {
+    entries.insert(entries.end(), part.entries.begin(), part.entries.end());
+    result.points_inside += part.inside;
+    result.points_outside += part.outside;
+  }
+  result.points_used += entries.size();
+  fill_slab(result.map, entries, first, mapper.options);
+}
+
+Finding objects_finding(const ObjectCells& objects, double cell_area_m2) {
+  const double area_m2 = static_cast<double>(objects.cells) * cell_area_m2;
+  char words[200];
+  std::snprintf(words, sizeof words,
+                "%.1f m2 between chainage %.1f and %.1f stand out from the rock around and were taken as equipment, "
+                "not as underbreak",
+                area_m2, objects.from_m, objects.to_m);
+  return {area_m2 < 1.0 ? Severity::note : Severity::warning, "deviation map", words, "look at the sections there"};
+}
+
 }  // namespace
 
 MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunnel& design, double from_m, double to_m,
@@ -196,37 +241,11 @@ MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunn
   MapResult result;
   result.map = empty_map(stretches, from_m, to_m, options);
   const Mapper mapper{scans, design, options, result.map, stretches};
-
-  std::vector<TileRef> tiles;
-  for (std::size_t i = 0; i < scans.size(); ++i)
-    for (std::size_t t = 0; t < scans[i].points->tile_count(); ++t)
-      if (const auto ref = tile_reach(scans[i], i, t, design.alignment())) tiles.push_back(*ref);
-
+  const std::vector<TileRef> tiles = tiles_of(scans, design.alignment());
   const auto slab_rows = static_cast<std::size_t>(std::max(1.0, std::ceil(slab_m / result.map.step_s_m)));
   for (std::size_t first = 0; first < result.map.rows; first += slab_rows) {
     progress.step(first, result.map.rows);
-    const std::size_t last = std::min(first + slab_rows, result.map.rows);
-    std::vector<TileRef> here;
-    for (const TileRef& tile : tiles)
-      if (tile.to_m >= result.map.row_chainage(first) - result.map.step_s_m &&
-          tile.from_m <= result.map.row_chainage(last - 1) + result.map.step_s_m)
-        here.push_back(tile);
-    std::vector<TileEntries> parts(here.size());
-    parallel_for_each_index(
-        here.size(),
-        [&](std::size_t k) {
-          progress.check();
-          parts[k] = mapper.entries_of(here[k], first, last);
-        },
-        1);
-    std::vector<Entry> entries;
-    for (const TileEntries& part : parts) {
-      entries.insert(entries.end(), part.entries.begin(), part.entries.end());
-      result.points_inside += part.inside;
-      result.points_outside += part.outside;
-    }
-    result.points_used += entries.size();
-    fill_slab(result.map, entries, first, options);
+    map_slab(result, mapper, tiles, first, std::min(first + slab_rows, result.map.rows), progress);
   }
   if (result.points_used == 0)
     throw Error("no scan point lies near the design between chainage " + std::to_string(from_m) + " and " +
@@ -234,17 +253,7 @@ MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunn
                 "", "check the alignment, the profile and the poses: do they use the same coordinates?");
   const ObjectCells objects = remove_object_cells(result.map);
   fill_map_gaps(result.map, mapper, options.gap_m);
-  if (objects.cells > 0) {
-    char words[200];
-    std::snprintf(
-        words, sizeof words,
-        "%.1f m2 between chainage %.1f and %.1f stand out from the rock around and were taken as equipment, not as "
-        "underbreak",
-        static_cast<double>(objects.cells) * result.map.step_s_m * result.map.step_q_m, objects.from_m, objects.to_m);
-    const bool little = static_cast<double>(objects.cells) * result.map.step_s_m * result.map.step_q_m < 1.0;
-    result.findings.push_back(
-        {little ? Severity::note : Severity::warning, "deviation map", words, "look at the sections there"});
-  }
+  if (objects.cells > 0) result.findings.push_back(objects_finding(objects, result.map.step_s_m * result.map.step_q_m));
   return result;
 }
 

@@ -12,8 +12,8 @@
 namespace adit {
 
 /// Advancing front surface (Cohen-Steiner and Da 2004, through CGAL) of evenly spaced points [local frame], triangles
-/// turned so that their normals face the viewpoints. Cancel is checked between phases; the longest phase takes about
-/// 4 s per 200,000 points. Throws Error with fewer than 100 points.
+/// turned so that their normals face the viewpoints. A cancel is heard within some tenths of a
+/// second. Throws Error with fewer than 100 points.
 Mesh reconstruct(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& viewpoints,
                  const SurfaceOptions& options, Progress& progress);
 

@@ -1,6 +1,9 @@
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <array>
@@ -14,13 +17,20 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Facet = std::array<std::size_t, 3>;
+using Structure =
+    CGAL::Triangulation_data_structure_3<CGAL::Advancing_front_surface_reconstruction_vertex_base_3<Kernel>,
+                                         CGAL::Advancing_front_surface_reconstruction_cell_base_3<Kernel>>;
+using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
 
-/// The front never takes a triangle with an edge longer than this.
+/// The front never takes a triangle with an edge longer than this. Asked for every candidate, so that a cancel is
+/// heard.
 struct EdgeLimit {
   double longest_m;
+  const Progress* progress;
 
   template <typename AdvancingFront, typename Cell>
   double operator()(const AdvancingFront& front, Cell& cell, const int& index) const {
+    progress->check();
     for (int i = 1; i <= 3; ++i) {
       const auto& a = cell->vertex((index + i) % 4)->point();
       const auto& b = cell->vertex((index + i % 3 + 1) % 4)->point();
@@ -29,6 +39,37 @@ struct EdgeLimit {
     return front.smallest_radius_delaunay_sphere(cell, index);
   }
 };
+
+/// Inserted along a space-filling curve; every vertex knows the number of its point.
+Delaunay delaunay(const std::vector<Kernel::Point_3>& points, const Progress& progress) {
+  using Numbered = std::pair<Kernel::Point_3, std::size_t>;
+  std::vector<Numbered> order;
+  order.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) order.emplace_back(points[i], i);
+  CGAL::spatial_sort(order.begin(), order.end(),
+                     CGAL::Spatial_sort_traits_adapter_3<Kernel, CGAL::First_of_pair_property_map<Numbered>>());
+  Delaunay triangulation;
+  Delaunay::Vertex_handle last;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i % 1000 == 0) progress.check();
+    last = triangulation.insert(order[i].first,
+                                last == Delaunay::Vertex_handle() ? Delaunay::Cell_handle() : last->cell());
+    last->info() = order[i].second;
+  }
+  return triangulation;
+}
+
+std::vector<Facet> advancing_front(const std::vector<Kernel::Point_3>& points, double longest_edge_m,
+                                   const Progress& progress) {
+  Delaunay triangulation = delaunay(points, progress);
+  progress.step(3, 10);
+  CGAL::Advancing_front_surface_reconstruction<Delaunay, EdgeLimit> front(triangulation,
+                                                                          EdgeLimit{longest_edge_m, &progress});
+  front.run(5.0, 0.52);  // CGAL's own standard values
+  std::vector<Facet> facets;
+  CGAL::write_triple_indices(std::back_inserter(facets), front);
+  return facets;
+}
 
 /// The parts of a soup that hang together by edges.
 std::vector<std::size_t> components_of(const std::vector<Facet>& facets, std::size_t points) {
@@ -77,9 +118,7 @@ Mesh reconstruct(const std::vector<Eigen::Vector3d>& points, const std::vector<E
   input.reserve(points.size());
   for (const auto& p : points) input.emplace_back(p.x(), p.y(), p.z());
   progress.step(1, 10);
-  std::vector<Facet> facets;
-  CGAL::advancing_front_surface_reconstruction(input.begin(), input.end(), std::back_inserter(facets),
-                                               EdgeLimit{options.longest_edge_m});
+  std::vector<Facet> facets = advancing_front(input, options.longest_edge_m, progress);
   progress.step(7, 10);
   // Points where two sheets touch are doubled, so that every edge and corner is that of a manifold.
   CGAL::Polygon_mesh_processing::orient_polygon_soup(input, facets);

@@ -1,0 +1,26 @@
+#pragma once
+// Timing and the simulated input that the benchmarks share.
+
+#include <chrono>
+#include <functional>
+
+#include "tests/core/sample_tunnel.h"
+
+namespace adit::bench {
+
+/// Shortest of several runs [s].
+inline double seconds_of(int runs, const std::function<void()>& work) {
+  double best = 1e9;
+  for (int i = 0; i < runs; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return best;
+}
+
+void bench_registration();
+void bench_io();
+void bench_profiling();
+
+}  // namespace adit::bench

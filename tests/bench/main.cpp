@@ -1,0 +1,25 @@
+// ./dev bench [registration] [io] [profiling]
+#include <pcl/console/print.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "tests/bench/bench.h"
+
+int main(int argc, char** argv) {
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  const std::vector<std::string> wanted(argv + 1, argv + argc);
+  const std::vector<std::pair<std::string, void (*)()>> tables{{"registration", adit::bench::bench_registration},
+                                                               {"io", adit::bench::bench_io},
+                                                               {"profiling", adit::bench::bench_profiling}};
+  for (const std::string& word : wanted)
+    if (std::none_of(tables.begin(), tables.end(), [&](const auto& table) { return table.first == word; })) {
+      std::fprintf(stderr, "bench: there is no table \"%s\"; registration, io, profiling\n", word.c_str());
+      return 2;
+    }
+  for (const auto& [name, run] : tables)
+    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) run();
+  return 0;
+}
