@@ -35,7 +35,7 @@ StepWords words_while_running(double fraction, double begin, double end) {
 }
 
 StepWords words_of(const Workspace& workspace, const app::Step& step, std::size_t i) {
-  const auto state = workspace.state();
+  const auto& state = workspace.state();
   if (state == nullptr) return {"\u2013", theme::quiet};
   if (workspace.doing() != Workspace::Doing::running) return words_of(step, *state);
   const std::vector<double> bounds = app::step_bounds(*state);
@@ -74,7 +74,7 @@ void draw_progress(const Workspace& workspace) {
 
 void draw_outcome(const Workspace& workspace) {
   if (workspace.outcome() == Outcome::cancelled) ImGui::TextColored(theme::doubt, "cancelled; finished steps are kept");
-  const auto state = workspace.state();
+  const auto& state = workspace.state();
   if (workspace.outcome() == Outcome::done && state) {
     const bool person = needs_a_person(state->results);
     ImGui::TextColored(person ? theme::bad : theme::good, "%s", person ? "done; findings need a person" : "done");
