@@ -156,10 +156,10 @@ json truth_json(const TruthComparison& truth) {
   return {{"worst_position_error_mm", 1e3 * truth.worst_position_error_m},
           {"worst_rotation_error_deg", deg_from_rad(truth.worst_rotation_error_rad)},
           {"true_volume", amounts_json(truth.true_volume)},
-          {"excavated_error", truth.excavated_error},
-          {"overbreak_error", truth.overbreak_error},
-          {"underbreak_error_m3", truth.underbreak_error_m3},
-          {"section_area_rms", truth.section_area_rms}};
+          {"excavated_error", number(truth.excavated_error)},
+          {"overbreak_error", number(truth.overbreak_error)},
+          {"underbreak_error_m3", number(truth.underbreak_error_m3)},
+          {"section_area_rms", number(truth.section_area_rms)}};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "app/command_line/summary.h"
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <filesystem>
@@ -50,11 +51,21 @@ void add_volumes(std::string& text, const VolumeResult& result) {
   }
 }
 
+/// "-" for what could not be compared.
+std::string signed_number(double value, const char* unit) {
+  if (!std::isfinite(value)) return "-";
+  char text[48];
+  std::snprintf(text, sizeof text, "%+.3f %s", value, unit);
+  return text;
+}
+
 void add_truth(std::string& text, const TruthComparison& truth) {
   add(text, "\nAgainst the exact truth of this simulated job\n");
-  add(text, "  worst station %.2f mm and %.4f degrees; excavated %+.3f %%; overbreak %+.3f %%; underbreak %+.3f m3\n",
-      1e3 * truth.worst_position_error_m, deg_from_rad(truth.worst_rotation_error_rad), 100.0 * truth.excavated_error,
-      100.0 * truth.overbreak_error, truth.underbreak_error_m3);
+  add(text, "  worst station %.2f mm and %.4f degrees; excavated %s; overbreak %s; underbreak %s\n",
+      1e3 * truth.worst_position_error_m, deg_from_rad(truth.worst_rotation_error_rad),
+      signed_number(100.0 * truth.excavated_error, "%").c_str(),
+      signed_number(100.0 * truth.overbreak_error, "%").c_str(),
+      signed_number(truth.underbreak_error_m3, "m3").c_str());
 }
 
 }  // namespace

@@ -102,6 +102,12 @@ void summarise(JobState& state) {
       result.findings.push_back({Severity::note, "scan " + store->name(),
                                  "the file does not say where the scanner stood; ranges are not limited", ""});
   }
+  for (std::size_t i = 0; i < state.stores.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (state.stores[i]->source_sha256() == state.stores[k]->source_sha256())
+        result.findings.push_back({Severity::decision, "scan " + state.stores[i]->name(),
+                                   "its file has the same content as that of scan " + state.stores[k]->name(),
+                                   "name the file of the other station"});
   result.findings.insert(result.findings.end(), state.input_findings.begin(), state.input_findings.end());
   state.results.import = std::move(result);
 }

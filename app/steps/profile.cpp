@@ -42,12 +42,15 @@ void cut_sections(JobState& state, ProfileResult& result) {
       1);
 }
 
+constexpr double least_coverage = 0.6;  // volumes of a stretch that was seen less than this are not to be trusted
+
 void report_weak_coverage(ProfileResult& result) {
   std::size_t weak = 0;
-  double worst = 1.0, worst_chainage = 0.0;
+  double worst = 1.0, worst_chainage = 0.0, sum = 0.0;
   for (const Section& section : result.sections) {
     const double coverage = section.lines.front().coverage;
     if (coverage < 0.8) ++weak;
+    sum += coverage;
     if (coverage < worst) {
       worst = coverage;
       worst_chainage = section.chainage_m;
@@ -59,6 +62,14 @@ void report_weak_coverage(ProfileResult& result) {
                 "%zu of %zu sections were seen to less than 80 %%; the least is %.0f %% at chainage %.2f", weak,
                 result.sections.size(), 100.0 * worst, worst_chainage);
   result.findings.push_back({Severity::warning, "sections", words, "add a scan there"});
+  const double mean = sum / static_cast<double>(result.sections.size());
+  if (mean >= least_coverage) return;
+  std::snprintf(
+      words, sizeof words,
+      "only %.0f %% of the stretch was seen; the rest counts as excavated to the line, which nobody has measured",
+      100.0 * mean);
+  result.findings.push_back(
+      {Severity::decision, "coverage", words, "shorten \"chainage\" to what was scanned, or scan the rest"});
 }
 
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {

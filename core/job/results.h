@@ -2,6 +2,7 @@
 // What came out of a job, per step, with its findings: the content of results.json. Plain values.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,15 +56,17 @@ struct VolumeResult {
   Findings findings;
 };
 
-/// Errors of a simulated job against its exact truth.
+/// Errors of a simulated job against its exact truth. What could not be compared (another stretch, a step that has not
+/// run) is not a number.
 struct TruthComparison {
+  static constexpr double not_compared = std::numeric_limits<double>::quiet_NaN();
   double worst_position_error_m = 0.0;
   double worst_rotation_error_rad = 0.0;
   VolumeAmounts true_volume;
-  double excavated_error = 0.0;  ///< relative
-  double overbreak_error = 0.0;  ///< relative
-  double underbreak_error_m3 = 0.0;
-  double section_area_rms = 0.0;  ///< relative, over all sections
+  double excavated_error = not_compared;  ///< relative
+  double overbreak_error = not_compared;  ///< relative
+  double underbreak_error_m3 = not_compared;
+  double section_area_rms = not_compared;  ///< relative, over all sections
 };
 
 struct StepTime {

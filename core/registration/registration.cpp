@@ -188,9 +188,9 @@ PoseGraphResult adjusted(const std::vector<Node>& nodes, const std::vector<Candi
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       if (candidates[k].source != wrong.source || candidates[k].target != wrong.target) continue;
       pairs[k].used = false;
-      findings.push_back({Severity::warning, "pair " + pairs[k].source + " - " + pairs[k].target,
+      findings.push_back({Severity::decision, "pair " + pairs[k].source + " - " + pairs[k].target,
                           "contradicts the other observations and was left out of the adjustment",
-                          "check the overlap of the two scans"});
+                          "check the poses and target names of both scans, and their overlap"});
     }
   }
 }

@@ -71,6 +71,12 @@ std::vector<Facet> advancing_front(const std::vector<Kernel::Point_3>& points, d
   return facets;
 }
 
+/// CGAL hands facets over in an order that follows addresses in memory; this one follows the points alone.
+void put_in_order(std::vector<Facet>& facets) {
+  for (Facet& facet : facets) std::rotate(facet.begin(), std::min_element(facet.begin(), facet.end()), facet.end());
+  std::sort(facets.begin(), facets.end());
+}
+
 /// The parts of a soup that hang together by edges.
 std::vector<std::size_t> components_of(const std::vector<Facet>& facets, std::size_t points) {
   std::vector<std::size_t> parent(points);
@@ -119,6 +125,7 @@ Mesh reconstruct(const std::vector<Eigen::Vector3d>& points, const std::vector<E
   for (const auto& p : points) input.emplace_back(p.x(), p.y(), p.z());
   progress.step(1, 10);
   std::vector<Facet> facets = advancing_front(input, options.longest_edge_m, progress);
+  put_in_order(facets);
   progress.step(7, 10);
   // Points where two sheets touch are doubled, so that every edge and corner is that of a manifold.
   CGAL::Polygon_mesh_processing::orient_polygon_soup(input, facets);
@@ -126,6 +133,7 @@ Mesh reconstruct(const std::vector<Eigen::Vector3d>& points, const std::vector<E
   corners.reserve(input.size());
   for (const auto& p : input) corners.emplace_back(p.x(), p.y(), p.z());
   face_viewpoints(facets, corners, viewpoints);
+  put_in_order(facets);
   progress.step(9, 10);
   std::vector<std::uint32_t> number(corners.size(), std::numeric_limits<std::uint32_t>::max());
   MeshArrays arrays;  // only points that a triangle uses
