@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
+#include "app/scan_places.h"
 #include "core/foundation/error.h"
 #include "core/profiling/overbreak.h"
 
@@ -12,7 +12,7 @@ namespace adit::app {
 namespace {
 
 constexpr double tolerance_m = 1e-3;
-constexpr double farthest_from_axis_m = 20000.0;  // no scan or control point of a tunnel lies farther beside its axis
+constexpr double farthest_from_axis_m = 20000.0;  // no guess or control point of a tunnel lies farther from its axis
 constexpr double farthest_profile_m = 100.0;      // nor does its profile
 constexpr double most_cells = 2e8;                // of the deviation map; 16 bytes each
 
@@ -29,17 +29,6 @@ void check_range(const JobState& state, const std::string& key, double from_m, d
   throw Error(words, job_key(state, key), "choose chainages on the axis");
 }
 
-/// Plan distance to the nearest of many places on the axis, [m].
-double distance_to_axis_m(const Alignment& axis, const Eigen::Vector2d& place) {
-  const double from = axis.horizontal().from_m();
-  const double length = axis.horizontal().to_m() - from;
-  const int steps = static_cast<int>(std::clamp(length / 100.0, 1.0, 2000.0));
-  double nearest = std::numeric_limits<double>::max();
-  for (int i = 0; i <= steps; ++i)
-    nearest = std::min(nearest, (axis.horizontal().at(from + length * i / steps).position - place).norm());
-  return nearest;
-}
-
 void check_near_axis(const JobState& state, const Eigen::Vector3d& place, const std::string& what,
                      const std::string& where) {
   const double distance = distance_to_axis_m(*state.alignment, place.head<2>());
@@ -52,13 +41,37 @@ void check_near_axis(const JobState& state, const Eigen::Vector3d& place, const 
                       : "check its coordinates, and those of " + state.job.alignment);
 }
 
+/// Coordinates that all lie off the axis, and all near it once east and north change places. East and north of a country
+/// differ by so much that one place tells; in a local grid only all together do.
+void check_not_swapped(const JobState& state, const std::vector<Eigen::Vector3d>& places, const std::string& what,
+                       const std::string& where) {
+  const auto near = [&](double east, double north) {
+    return distance_to_axis_m(*state.alignment, {east, north}) <= farthest_scan_from_axis_m;
+  };
+  const auto seems_swapped = [&](const Eigen::Vector3d& p) { return !near(p.x(), p.y()) && near(p.y(), p.x()); };
+  if (places.empty() || !std::all_of(places.begin(), places.end(), seems_swapped)) return;
+  char words[100];
+  std::snprintf(words, sizeof words, " lie %.3g m and more from the axis",
+                distance_to_axis_m(*state.alignment, places.front().head<2>()));
+  throw Error(what + words, where, "east and north seem to be swapped, here or in " + state.job.alignment);
+}
+
 void check_places(const JobState& state) {
-  for (std::size_t i = 0; i < state.job.scans.size(); ++i)
-    if (const auto& position = state.job.scans[i].position)
-      check_near_axis(state, *position, "scan " + state.job.scans[i].name,
-                      job_key(state, "scans[" + std::to_string(i) + "].pose.position"));
-  for (const ControlPoint& point : state.control)
-    check_near_axis(state, point.position, "control point " + point.id, (state.folder / state.job.control).string());
+  std::vector<Eigen::Vector3d> scans, control;
+  for (std::size_t i = 0; i < state.job.scans.size(); ++i) {
+    const auto& position = state.job.scans[i].position;
+    if (!position) continue;
+    scans.push_back(*position);
+    check_near_axis(state, *position, "scan " + state.job.scans[i].name,
+                    job_key(state, "scans[" + std::to_string(i) + "].pose.position"));
+  }
+  check_not_swapped(state, scans, "the positions of the scans", job_key(state, "scans"));
+  const std::string control_file = (state.folder / state.job.control).string();
+  for (const ControlPoint& point : state.control) {
+    control.push_back(point.position);
+    check_near_axis(state, point.position, "control point " + point.id, control_file);
+  }
+  check_not_swapped(state, control, "the control points", control_file);
 }
 
 void check_profiles(const JobState& state) {

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <map>
 
 #include "app/truth_comparison.h"
 #include "app/version.h"
@@ -106,6 +107,21 @@ bool do_step(JobState& state, const Step& step, const RunOptions& options, Progr
   return true;
 }
 
+/// Results for people that stand in the folder and belong to a step that is not up to date.
+Findings stale_files(const JobState& state, const std::vector<Step>& steps, std::size_t first_stale) {
+  const std::map<std::string, const char*> file_of_step{
+      {"surface", "mesh.ply"}, {"profile", "sections.csv"}, {"volume", "volumes.csv"}, {"report", "report.pdf"}};
+  Findings findings;
+  for (std::size_t i = first_stale; i < steps.size(); ++i) {
+    const auto file = file_of_step.find(steps[i].name);
+    std::error_code ignored;
+    if (file != file_of_step.end() && fs::exists(state.out / file->second, ignored))
+      findings.push_back({Severity::warning, file->second, "comes from an earlier run and does not show these numbers",
+                          "renew it with adit run"});
+  }
+  return findings;
+}
+
 }  // namespace
 
 std::vector<double> step_bounds(const JobState& state) {
@@ -131,17 +147,20 @@ std::shared_ptr<JobState> run_job(const fs::path& job_file, const RunOptions& op
   }
   const std::vector<Step> steps = all_steps();
   const std::vector<double> bounds = step_bounds(*state);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const Step& step = steps[i];
+  RunOptions present = options;
+  std::size_t done = 0;
+  for (; done < steps.size(); ++done) {
+    const Step& step = steps[done];
     if (step.wanted(*state)) {
-      Progress part = progress.part(bounds[i + 1] - bounds[i], step.message);
-      if (!do_step(*state, step, options, part)) break;
+      Progress part = progress.part(bounds[done + 1] - bounds[done], step.message);
+      if (!do_step(*state, step, present, part)) break;
     } else if (step.name == options.last_step) {
       throw Error("the job has no alignment and profile, which \"" + step.name + "\" needs", job_file.string(),
                   "name both files in job.json");
     }
-    if (step.name == options.last_step) break;
+    if (step.name == options.last_step) present.only_take_up = true;  // what later steps left may still hold
   }
+  state->results.earlier = stale_files(*state, steps, done);
   if (state->truth && !state->results.truth) state->results.truth = compare_with_truth(state->results, *state->truth);
   state->results.peak_memory_bytes = peak_memory_bytes();
   if (!options.only_take_up) write_results(*state);

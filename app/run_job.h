@@ -14,7 +14,7 @@ namespace adit::app {
 
 struct RunOptions {
   std::filesystem::path out;  ///< everything derived; empty: "out" in the job's folder
-  std::string last_step;      ///< stop after this step; empty: all
+  std::string last_step;      ///< the last to run; later ones are taken up if they still hold; empty: all
   bool only_take_up = false;  ///< run nothing: take up what earlier runs left, as far as it is up to date
   StepContext context;
 };

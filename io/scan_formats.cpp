@@ -26,6 +26,20 @@ Scans one(ScanData scan) {
   return scans;
 }
 
+BoundingBox box_of(const ScanData& scan) {
+  BoundingBox box;
+  for (const Eigen::Vector3f& p : scan.cloud.points) box.extend(p.cast<double>() + scan.offset);
+  return box;
+}
+
+/// For headers that do not say where the points lie.
+ScanFileSummary with_box(ScanFileSummary summary, const ScanData& scan) {
+  summary.scans.front().box = box_of(scan);
+  return summary;
+}
+
+constexpr ReadOptions finite_points{true};
+
 /// For text formats: only reading tells how many points there are, and where.
 ScanFileSummary summary_of(const std::string& format, const Scans& scans) {
   ScanFileSummary summary;
@@ -35,7 +49,7 @@ ScanFileSummary summary_of(const std::string& format, const Scans& scans) {
     row.name = scan.name;
     row.points = scan.cloud.size();
     row.pose = scan.file_pose;
-    for (const Eigen::Vector3f& p : scan.cloud.points) row.box.extend(p.cast<double>() + scan.offset);
+    row.box = box_of(scan);
     if (scan.cloud.has_intensity()) row.attributes.emplace_back("intensity");
     if (scan.cloud.has_colour()) row.attributes.emplace_back("colour");
     if (scan.cloud.has_normals()) row.attributes.emplace_back("normals");
@@ -59,12 +73,12 @@ std::vector<ScanFormat> make_formats() {
       {{".ply"},
        is_ply,
        [](auto& file, auto& options, auto& progress) { return one(read_ply(file, options, progress)); },
-       [](auto& file, auto&) { return summarise_ply(file); },
+       [](auto& file, auto& progress) { return with_box(summarise_ply(file), read_ply(file, finite_points, progress)); },
        [](auto& file, auto& scans, auto& options, auto& progress) { write_ply(file, scans[0], options, progress); }},
       {{".pcd"},
        is_pcd,
        [](auto& file, auto& options, auto& progress) { return one(read_pcd(file, options, progress)); },
-       [](auto& file, auto&) { return summarise_pcd(file); },
+       [](auto& file, auto& progress) { return with_box(summarise_pcd(file), read_pcd(file, finite_points, progress)); },
        [](auto& file, auto& scans, auto& options, auto& progress) { write_pcd(file, scans[0], options, progress); }},
       {{".las"},
        is_las,

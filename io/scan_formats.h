@@ -32,7 +32,7 @@ struct ScanSummary {
   std::string name;
   std::uint64_t points = 0;
   std::optional<Pose> pose;
-  BoundingBox box;                      ///< file coordinates; empty when not known without reading all points
+  BoundingBox box;                      ///< file coordinates
   std::vector<std::string> attributes;  ///< "intensity", "colour", "normals", ...
 };
 struct ScanFileSummary {
@@ -53,7 +53,7 @@ bool is_scan_file(const std::filesystem::path& file);
 /// points at all. Nothing is allocated before the file's size confirms it.
 std::vector<ScanData> read_scans(const std::filesystem::path& file, const ReadOptions& options, Progress& progress);
 
-/// Header contents without reading all points (text formats are read through).
+/// What a file holds and where its points lie: from the header alone where it says so (LAS), else read through.
 ScanFileSummary summarise_scan_file(const std::filesystem::path& file, Progress& progress);
 
 /// Writes by ending (.ply .pcd .las .pts .ptx .xyz .csv), atomically. Several scans only where the format can (PTX);

@@ -1,6 +1,7 @@
 // adit convert IN OUT: between scan formats.
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,13 @@
 
 namespace adit::app {
 namespace {
+
+/// A scan is evidence: its file is never replaced by what was made of it.
+void check_another_file(const std::string& in, const std::string& out) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(in, out, ignored))
+    throw Error("this is the file that is read; a scan is not overwritten", out, "choose another name for OUT");
+}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -39,6 +47,7 @@ Action declare_convert(CLI::App& command) {
       ->check(CLI::Range(1, 1000000));
   command.add_flag("--drop-invalid", arguments->read.drop_invalid, "leave out points that are not finite");
   return [arguments](const CommonOptions& common, Progress& progress) {
+    check_another_file(arguments->in, arguments->out);
     Progress reading = progress.part(0.6, "reading " + arguments->in);
     std::vector<io::ScanData> scans = io::read_scans(arguments->in, arguments->read, reading);
     if (arguments->scan > scans.size())

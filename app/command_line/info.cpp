@@ -138,6 +138,11 @@ json info(const fs::path& file, Progress& progress) {
 std::string plain(const json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return "-";
+  if (value.is_number_float()) {
+    char number[40];
+    std::snprintf(number, sizeof number, "%.10g", value.get<double>());
+    return number;
+  }
   if (!value.is_array()) return value.dump();
   std::string text;
   for (const auto& one : value) text += (text.empty() ? "" : " ") + plain(one);

@@ -44,7 +44,19 @@ void cut_sections(JobState& state, ProfileResult& result) {
 
 constexpr double least_coverage = 0.6;  // volumes of a stretch that was seen less than this are not to be trusted
 
-void report_weak_coverage(ProfileResult& result) {
+/// What helps against cells that were not seen. Where most of them hold points, only too few, larger cells do.
+std::string mend_of_coverage(const DeviationMap& map, std::uint64_t sparse_cells, const std::string& otherwise) {
+  const auto measured = static_cast<std::uint64_t>(std::count_if(
+      map.cells.begin(), map.cells.end(), [](const MapCell& cell) { return cell.kind == CellKind::measured; }));
+  if (sparse_cells <= measured) return otherwise;
+  char words[160];
+  std::snprintf(words, sizeof words,
+                "the scans are too sparse for cells of %.2f x %.2f m: enlarge slice_m and cell_m in options.profiling",
+                map.step_s_m, map.step_q_m);
+  return words;
+}
+
+void report_weak_coverage(ProfileResult& result, const DeviationMap& map, std::uint64_t sparse_cells) {
   std::size_t weak = 0;
   double worst = 1.0, worst_chainage = 0.0, sum = 0.0;
   for (const Section& section : result.sections) {
@@ -61,7 +73,8 @@ void report_weak_coverage(ProfileResult& result) {
   std::snprintf(words, sizeof words,
                 "%zu of %zu sections were seen to less than 80 %%; the least is %.0f %% at chainage %.2f", weak,
                 result.sections.size(), 100.0 * worst, worst_chainage);
-  result.findings.push_back({Severity::warning, "sections", words, "add a scan there"});
+  result.findings.push_back({Severity::warning, "sections", words,
+                             mend_of_coverage(map, sparse_cells, "add a scan there")});
   const double mean = sum / static_cast<double>(result.sections.size());
   if (mean >= least_coverage) return;
   std::snprintf(
@@ -69,7 +82,8 @@ void report_weak_coverage(ProfileResult& result) {
       "only %.0f %% of the stretch was seen; the rest counts as excavated to the line, which nobody has measured",
       100.0 * mean);
   result.findings.push_back(
-      {Severity::decision, "coverage", words, "shorten \"chainage\" to what was scanned, or scan the rest"});
+      {Severity::decision, "coverage", words,
+       mend_of_coverage(map, sparse_cells, "shorten \"chainage\" to what was scanned, or scan the rest")});
 }
 
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
@@ -85,7 +99,7 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   result.findings = std::move(mapped.findings);
   Progress cutting = progress.part(0.1, "cutting sections");
   cut_sections(state, result);
-  report_weak_coverage(result);
+  report_weak_coverage(result, *state.map, mapped.sparse_cells);
   state.results.profile = std::move(result);
   io::write_deviation_map(state.out / "steps" / "map.bin", *state.map);
   io::write_file_atomically(step_file(state, "profile"), io::step_text(*state.results.profile));

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "app/scan_places.h"
 #include "app/step.h"
 #include "core/foundation/error.h"
 #include "core/geometry/bounding_box.h"
@@ -17,7 +18,7 @@ bool wanted(const JobState&) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "register 1|" + state.keys.at("import");
+  std::string text = "register 2|" + state.keys.at("import");
   for (const JobScan& scan : state.job.scans) {
     if (!scan.position) continue;
     for (const double value : {scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,
@@ -97,6 +98,10 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   std::vector<ScanToPlace> scans;
   for (std::size_t i = 0; i < state.stores.size(); ++i) scans.push_back(scan_to_place(state, i));
   state.results.registration = register_scans(scans, context_of(state), state.job.options.registration, progress);
+  for (Finding& finding : scans_beside_axis(state)) {
+    state.results.registration.findings.push_back(std::move(finding));
+    state.results.registration.accepted = false;
+  }
   io::write_file_atomically(step_file(state, "register"), io::step_text(state.results.registration));
   return {"steps/register.json"};
 }

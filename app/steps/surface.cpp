@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/placed_tiles.h"
+#include "app/scan_places.h"
 #include "app/step.h"
 #include "core/foundation/error.h"
 #include "core/geometry/statistics.h"
@@ -75,7 +76,7 @@ std::vector<Eigen::Vector3d> surface_points(const JobState& state, const std::ve
   char words[160];
   std::snprintf(words, sizeof words, "no point of the scans lies near the design line between chainage %.3f and %.3f",
                 stretch.from_m, stretch.to_m);
-  throw Error(words, state.file.string(), "check the poses of the scans, their unit, the axis and the chainage");
+  throw Error(words + (": " + places_in_words(state)), state.file.string(), "check the poses of the scans, their unit, the axis and the chainage");
 }
 
 void add_deviations(JobState& state, SurfaceResult& result) {

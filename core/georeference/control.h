@@ -29,6 +29,7 @@ struct ControlResidual {
   std::string scan;
   std::string id;
   Eigen::Vector3d residual_m = Eigen::Vector3d::Zero();
+  bool used = true;  ///< false when the adjustment found it wrong and left it out
 };
 
 /// Rigid transform (least squares, Arun et al. 1987 / Umeyama without scale) target_from_source over pairs of points.

@@ -83,6 +83,7 @@ struct Results {
   std::optional<ProfileResult> profile;
   std::optional<VolumeResult> volume;
   std::optional<TruthComparison> truth;
+  Findings earlier;  ///< files of earlier runs that do not show these numbers
   std::vector<StepTime> timing;
   std::uint64_t peak_memory_bytes = 0;
 };

@@ -146,17 +146,21 @@ MapCell surface_cell(const Entry* begin, const Entry* end, const ProfilingOption
   return cell;
 }
 
-void fill_slab(DeviationMap& map, std::vector<Entry>& entries, std::size_t first_row, const ProfilingOptions& options) {
+/// The number of cells whose points were too few.
+std::uint64_t fill_slab(DeviationMap& map, std::vector<Entry>& entries, std::size_t first_row, const ProfilingOptions& options) {
   tbb::parallel_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.cell, a.deviation_m, a.place) < std::tie(b.cell, b.deviation_m, b.place);
   });
+  std::uint64_t sparse = 0;
   for (std::size_t begin = 0; begin < entries.size();) {
     std::size_t end = begin;
     while (end < entries.size() && entries[end].cell == entries[begin].cell) ++end;
-    map.cells[first_row * map.columns + entries[begin].cell] =
-        surface_cell(entries.data() + begin, entries.data() + end, options);
+    MapCell& cell = map.cells[first_row * map.columns + entries[begin].cell];
+    cell = surface_cell(entries.data() + begin, entries.data() + end, options);
+    if (cell.kind == CellKind::unseen) ++sparse;
     begin = end;
   }
+  return sparse;
 }
 
 DeviationMap empty_map(const std::vector<ProfileStretch>& stretches, double from_m, double to_m,
@@ -219,7 +223,7 @@ void map_slab(MapResult& result, const Mapper& mapper, const std::vector<TileRef
     result.points_outside += part.outside;
   }
   result.points_used += entries.size();
-  fill_slab(result.map, entries, first, mapper.options);
+  result.sparse_cells += fill_slab(result.map, entries, first, mapper.options);
 }
 
 Finding objects_finding(const ObjectCells& objects, double cell_area_m2) {

@@ -55,6 +55,7 @@ struct MapResult {
   std::uint64_t points_used = 0;
   std::uint64_t points_inside = 0;   ///< left out: farther inside the line than reach_in_m
   std::uint64_t points_outside = 0;  ///< left out: farther outside than reach_out_m
+  std::uint64_t sparse_cells = 0;    ///< left out: cells with fewer points than least_points
   Findings findings;
 };
 MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunnel& design, double from_m, double to_m,

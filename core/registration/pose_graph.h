@@ -2,6 +2,7 @@
 // All pairs, guesses and control points in one adjustment.
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/foundation/progress.h"
@@ -21,6 +22,7 @@ struct GraphPair {
 /// A target seen from a node, and where it is.
 struct GraphControl {
   std::size_t node = 0;
+  std::string id;  ///< of the control point
   Eigen::Vector3d in_scan = Eigen::Vector3d::Zero();
   Eigen::Vector3d in_local = Eigen::Vector3d::Zero();
 };
@@ -33,11 +35,13 @@ struct PoseGraph {
   double guess_sigma_m = 0.5;        ///< every node is also held, loosely, at its starting value
   double guess_sigma_rad = 0.035;
   double control_sigma_m = 0.002;
+  bool with_covariance = true;  ///< false: for trials, which need none
 };
 
 struct PoseGraphResult {
   std::vector<Pose> local_from_scan;
   std::vector<Matrix6d> covariance;  ///< of (rotation, translation) per node, local axes
+  double cost = 0.0;                 ///< half the sum of squares that was minimised, after the robust losses
   std::vector<double> pair_misfit;   ///< squared residual of each pair in its own sigmas (6 are expected)
   std::vector<Eigen::Vector3d> control_residual_m;
 };

@@ -182,7 +182,8 @@ PoseGraphResult solve_pose_graph(const PoseGraph& graph, Progress& progress) {
   }
   for (const GraphControl& c : graph.control)
     result.control_residual_m.emplace_back(result.local_from_scan[c.node] * c.in_scan - c.in_local);
-  result.covariance = covariances(problem, graph);
+  result.cost = summary.final_cost;
+  if (graph.with_covariance) result.covariance = covariances(problem, graph);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "core/foundation/error.h"
 #include "core/foundation/parallel.h"
 #include "core/geometry/statistics.h"
+#include "core/registration/adjustment.h"
 #include "core/registration/observability.h"
 #include "core/registration/pose_graph.h"
 #include "core/registration/prepared_scan.h"
@@ -20,6 +21,7 @@ namespace {
 constexpr double least_range_m = 0.6;
 constexpr double most_range_m = 45.0;
 constexpr std::size_t most_pairs_a_scan = 4;
+constexpr std::size_t least_targets = 3;  // place a scan without anything else
 
 /// A scan with a starting pose; index into the caller's scans.
 struct Node {
@@ -46,7 +48,7 @@ std::optional<Node> starting_node(std::size_t index, const ScanToPlace& scan, co
     if (target.scan != scan.name) continue;
     const auto point = by_id.find(target.id);
     if (point == by_id.end()) continue;
-    node.control.push_back({0, target.position, point->second});
+    node.control.push_back({0, target.id, target.position, point->second});
     seen.push_back(target.position);
     known.push_back(point->second);
   }
@@ -174,23 +176,62 @@ PoseGraph graph_of(const std::vector<Node>& nodes, const std::vector<Candidate>&
   return graph;
 }
 
-/// Solves, takes out pairs that contradict the rest, and solves again until none does.
-PoseGraphResult adjusted(const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
-                         std::vector<PairResult>& pairs, const RegistrationOptions& options, Findings& findings,
-                         Progress& progress) {
-  constexpr double wrong_misfit = 400.0;  // twenty of the pair's own sigmas: its model errors are a few
-  for (;;) {
-    const PoseGraph graph = graph_of(nodes, candidates, pairs, options);
-    PoseGraphResult result = solve_pose_graph(graph, progress);
-    const auto worst = std::max_element(result.pair_misfit.begin(), result.pair_misfit.end());
-    if (worst == result.pair_misfit.end() || *worst < wrong_misfit) return result;
-    const GraphPair& wrong = graph.pairs[static_cast<std::size_t>(worst - result.pair_misfit.begin())];
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      if (candidates[k].source != wrong.source || candidates[k].target != wrong.target) continue;
-      pairs[k].used = false;
-      findings.push_back({Severity::decision, "pair " + pairs[k].source + " - " + pairs[k].target,
-                          "contradicts the other observations and was left out of the adjustment",
-                          "check the poses and target names of both scans, and their overlap"});
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+/// "control point T105", "target T105 of scan S2", ...
+std::string name_of(const Suspect& suspect, const PoseGraph& graph, const std::vector<Node>& nodes) {
+  const auto scan_of = [&](std::size_t node) { return nodes[node].prepared.name; };
+  if (suspect.kind == Suspect::Kind::pair) {
+    const GraphPair& pair = graph.pairs[suspect.pairs.front()];
+    return "pair " + scan_of(pair.source) + " - " + scan_of(pair.target);
+  }
+  const GraphControl& first = graph.control[suspect.control.front()];
+  if (suspect.kind == Suspect::Kind::point) return "control point " + first.id;
+  if (suspect.kind == Suspect::Kind::scan) return "targets of scan " + scan_of(first.node);
+  return "target " + first.id + " of scan " + scan_of(first.node);
+}
+
+std::string mend_of(Suspect::Kind kind) {
+  switch (kind) {
+    case Suspect::Kind::pair:
+      return "check the poses of both scans, their overlap, and whether each has the file of its station";
+    case Suspect::Kind::observation:
+      return "check its name and its place in the scan; it stays left out until the targets or the control are mended";
+    case Suspect::Kind::point:
+      return "check its coordinates in the control file, and whether it has moved";
+    case Suspect::Kind::scan:
+      break;
+  }
+  return "check whether they are filed under the wrong scan, or some of their names are exchanged";
+}
+
+void report_contradictions(RegistrationResult& result, const Adjustment& adjustment, const PoseGraph& graph,
+                           const std::vector<Node>& nodes) {
+  for (const Contradiction& contradiction : adjustment.contradictions) {
+    std::vector<std::string> names;
+    for (const Suspect& suspect : contradiction.suspects) names.push_back(name_of(suspect, graph, nodes));
+    if (contradiction.left_out) {
+      result.findings.push_back({Severity::decision, names.front(),
+                                 "contradicts the other observations and was left out of the adjustment",
+                                 mend_of(contradiction.suspects.front().kind)});
+    } else if (names.size() == 1) {
+      result.findings.push_back({Severity::decision, "adjustment",
+                                 names.front() + " contradicts the other observations; without it too little control "
+                                                 "would be left, so it stays in",
+                                 "check it, or survey more targets"});
+    } else {
+      constexpr std::size_t most_names = 6;
+      const bool many = names.size() > most_names;
+      if (many) names.resize(most_names);
+      result.findings.push_back({Severity::decision, "adjustment",
+                                 "the observations contradict each other, and the others cannot tell which is wrong: " +
+                                     listed(names) + (many ? " or others" : "") + "; nothing was left out",
+                                 "check these, or survey more targets"});
     }
   }
 }
@@ -201,7 +242,7 @@ std::vector<bool> tied_nodes(const std::vector<Node>& nodes, const std::vector<C
   std::vector<bool> tied(nodes.size(), false);
   bool any_control = false;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    tied[i] = nodes[i].control.size() >= 3;
+    tied[i] = nodes[i].control.size() >= least_targets;
     any_control = any_control || tied[i];
   }
   if (!any_control) tied[0] = true;
@@ -221,7 +262,7 @@ std::string how_placed(const Node& node, bool has_pairs, bool is_datum) {
   if (has_pairs && control) return "clouds and control";
   if (is_datum) return "datum";
   if (has_pairs) return "clouds";
-  if (node.control.size() >= 3) return "control";
+  if (node.control.size() >= least_targets) return "control";
   return "guess";
 }
 
@@ -251,7 +292,7 @@ void compare_with_guess(const PlacedScan& scan, const Node& node, const Registra
                 "ended %.2f m and %.1f degrees from its guess, more than three times what guesses are worth", moved_m,
                 turned_deg);
   // Control decides which of the two was wrong; without it a person must.
-  const Severity severity = node.control.size() >= 3 ? Severity::warning : Severity::decision;
+  const Severity severity = node.control.size() >= least_targets ? Severity::warning : Severity::decision;
   findings.push_back(
       {severity, "scan " + scan.name, words, "check its pose in job.json and look at the scans from above"});
 }
@@ -281,24 +322,33 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
   }
 }
 
-void report_control(RegistrationResult& result, const std::vector<Node>& nodes, const std::vector<ScanToPlace>& scans,
-                    const RegistrationContext& context, const PoseGraphResult& solved,
-                    const RegistrationOptions& options) {
-  const auto by_id = control_by_id(context);
+/// Takes over what was used: pairs into the result, and only the control that was used stays with the nodes.
+void keep_used(RegistrationResult& result, std::vector<Node>& nodes, const Adjustment& adjustment,
+               const PoseGraph& graph) {
+  std::size_t k = 0;
+  for (PairResult& pair : result.pairs)
+    if (pair.used) pair.used = adjustment.pair_used[k++];
+  for (Node& node : nodes) node.control.clear();
+  for (std::size_t c = 0; c < graph.control.size(); ++c)
+    if (adjustment.control_used[c]) nodes[graph.control[c].node].control.push_back(graph.control[c]);
+}
+
+void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraph& graph,
+                    const std::vector<Node>& nodes, const RegistrationOptions& options) {
   std::vector<double> components;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (const auto& target : context.targets) {
-      const std::string& name = scans[nodes[i].scan].name;
-      if (target.scan != name) continue;
-      const Eigen::Vector3d residual = solved.local_from_scan[i] * target.position - by_id.at(target.id);
-      result.control.push_back({name, target.id, residual});
-      for (const double component : residual) components.push_back(component);
-      if (residual.cwiseAbs().maxCoeff() <= 5.0 * options.control_sigma_m) continue;
-      char words[160];
-      std::snprintf(words, sizeof words, "residual of %.1f mm at target %s; over five times its sigma",
-                    1000.0 * residual.norm(), target.id.c_str());
-      result.findings.push_back({Severity::decision, "scan " + name, words, "check this target and its control point"});
-    }
+  for (std::size_t k = 0; k < graph.control.size(); ++k) {
+    const GraphControl& control = graph.control[k];
+    const std::string& name = nodes[control.node].prepared.name;
+    const Eigen::Vector3d residual =
+        adjustment.solved.local_from_scan[control.node] * control.in_scan - control.in_local;
+    result.control.push_back({name, control.id, residual, adjustment.control_used[k]});
+    if (!adjustment.control_used[k]) continue;
+    for (const double component : residual) components.push_back(component);
+    if (residual.cwiseAbs().maxCoeff() <= 5.0 * options.control_sigma_m) continue;
+    char words[160];
+    std::snprintf(words, sizeof words, "residual of %.1f mm at target %s; over five times its sigma",
+                  1000.0 * residual.norm(), control.id.c_str());
+    result.findings.push_back({Severity::decision, "scan " + name, words, "check this target and its control point"});
   }
   result.control_rms_m = components.empty() ? 0.0 : root_mean_square(components);
 }
@@ -318,7 +368,7 @@ void prepare_nodes(std::vector<Node>& nodes, const std::vector<ScanToPlace>& sca
 /// against a design.
 void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,
                  const RegistrationOptions& options) {
-  if (std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.control.size() >= 3; })) return;
+  if (std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.control.size() >= least_targets; })) return;
   double span_m = 0.0;
   for (const Node& node : nodes) span_m = std::max(span_m, distance_between_m(node.start, nodes.front().start));
   result.datum_sigma_m = std::hypot(options.guess_sigma_m, 0.5 * span_m * rad_from_deg(options.guess_sigma_deg));
@@ -353,9 +403,12 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   Progress matching = progress.part(0.7, "matching scans");
   result.pairs = register_pairs(nodes, candidates, context, options, matching);
   Progress adjusting = progress.part(0.05, "adjusting all scans");
-  const PoseGraphResult solved = adjusted(nodes, candidates, result.pairs, options, result.findings, adjusting);
-  place_nodes(result, nodes, candidates, solved, context, options);
-  report_control(result, nodes, scans, context, solved, options);
+  const PoseGraph graph = graph_of(nodes, candidates, result.pairs, options);
+  const Adjustment adjustment = adjusted(graph, adjusting);
+  report_contradictions(result, adjustment, graph, nodes);
+  keep_used(result, nodes, adjustment, graph);
+  place_nodes(result, nodes, candidates, adjustment.solved, context, options);
+  report_control(result, adjustment, graph, nodes, options);
   judge_datum(result, nodes, context, options);
   for (const auto& scan : result.scans) {
     if (!scan.placed)

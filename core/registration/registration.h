@@ -74,7 +74,7 @@ struct PairResult {
   double within_6mm = 0.0;         ///< share of residuals under 6 mm
   PoseSigma sigma;
   std::vector<std::string> undetermined;  ///< "along", "across", "up": not known from the clouds, held at the guess
-  bool used = true;                       ///< false when the adjustment found it wrong
+  bool used = true;                       ///< false when it overlaps too little or the adjustment found it wrong
   Matrix6d information =
       Matrix6d::Zero();  ///< of (rotation [rad], translation [m]) in the target's frame at the source's origin
 };
@@ -90,7 +90,7 @@ struct PlacedScan {
 };
 
 struct RegistrationResult {
-  bool accepted = false;  ///< every scan placed, every direction determined
+  bool accepted = false;  ///< no finding needs a decision: every scan placed, every direction determined, nothing contradicts
   std::vector<PlacedScan> scans;
   std::vector<PairResult> pairs;
   std::vector<ControlResidual> control;

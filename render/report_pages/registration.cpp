@@ -126,16 +126,30 @@ void add_control(PageFlow& flow, const Results& results) {
                {"east mm", 22, true},
                {"north mm", 22, true},
                {"up mm", 22, true},
-               {"distance mm", 24, true}},
+               {"distance mm", 24, true},
+               {"used", 14, false}},
               {},
               2.3};
   for (const ControlResidual& r : results.registration.control)
     table.rows.push_back({r.scan, r.id, with_sign(1000.0 * r.residual_m.x(), 1),
                           with_sign(1000.0 * r.residual_m.y(), 1), with_sign(1000.0 * r.residual_m.z(), 1),
-                          fixed(1000.0 * r.residual_m.norm(), 1)});
+                          fixed(1000.0 * r.residual_m.norm(), 1),
+                          TableCell(r.used ? "yes" : "no", r.used ? colours::black : colours::red, !r.used)});
   flow.table(table);
-  flow.paragraph("Root mean square of all targets: " + fixed(1000.0 * results.registration.control_rms_m, 1) + " mm.",
+  flow.paragraph("Root mean square of the targets used, per axis: " + fixed(1000.0 * results.registration.control_rms_m, 1) + " mm.",
                  colours::black, 2.6, true);
+}
+
+/// What makes the registration not accepted, in its own words.
+void add_verdict(PageFlow& flow, const RegistrationResult& registration) {
+  if (registration.accepted) {
+    flow.paragraph("Accepted: every scan is placed, every direction is determined.", colours::green, 2.8, true);
+    return;
+  }
+  flow.paragraph("Not accepted. To be decided by a person:", colours::red, 2.8, true);
+  for (const Finding& finding : registration.findings)
+    if (finding.severity == Severity::decision)
+      flow.paragraph(finding.subject + ": " + finding.words + "; " + finding.mend + ".", colours::red);
 }
 
 }  // namespace
@@ -143,9 +157,7 @@ void add_control(PageFlow& flow, const Results& results) {
 void add_registration_pages(PageFlow& flow, const ReportContent& content) {
   const Results& results = *content.results;
   flow.start("Registration");
-  flow.paragraph(results.registration.accepted ? "Accepted: every scan is placed, every direction is determined."
-                                               : "Not accepted: a scan is not placed or a direction is not determined.",
-                 results.registration.accepted ? colours::green : colours::red, 2.8, true);
+  add_verdict(flow, results.registration);
   flow.skip(1.0);
   add_plan(flow, content);
   if (results.registration.scans.empty()) {

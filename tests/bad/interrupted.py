@@ -15,7 +15,7 @@ import time
 import small_job
 
 LONGEST_S = 1.5
-MOMENTS = 14
+MOMENTS = 10
 
 
 def disturbed(command, after_s, by):
@@ -38,7 +38,7 @@ def faults_of(code, seconds, said, by):
         return []
     if by == signal.SIGKILL:
         return ["exit %d after kill -9" % code] if code != -signal.SIGKILL else []
-    return ["exit %d" % code if code not in (130, 0, 1) else "",  # 0 and 1: it had all but ended
+    return ["exit %d" % code if code not in (130, 0, 1, -by) else "",  # 0, 1: it had all but ended; -by: not yet begun
             "answered after %.2f s" % seconds if seconds > LONGEST_S else "",
             "said %r" % said if code == 130 and said != "adit: cancelled; finished steps are kept\n" else ""]
 

@@ -180,7 +180,7 @@ TEST(PoseGraph, ControlGivesDatumAndCovariance) {
   graph.control_sigma_m = 0.002;
   for (const Eigen::Vector3d& p :
        {Eigen::Vector3d(5, 0, 0), Eigen::Vector3d(0, 5, 1), Eigen::Vector3d(-5, 0, 2), Eigen::Vector3d(0, -5, 3)})
-    graph.control.push_back({0, p, truth * p});
+    graph.control.push_back({0, "T", p, truth * p});
   Progress progress;
   const PoseGraphResult result = solve_pose_graph(graph, progress);
   EXPECT_LT(distance_between_m(result.local_from_scan[0], truth), 1e-5);  // the loose guess pulls a little

@@ -73,12 +73,13 @@ void draw_pairs(const std::vector<PairResult>& pairs) {
 
 void draw_control(const RegistrationResult& registration) {
   heading("Targets against control, rms " + millimetres(registration.control_rms_m) + " mm");
-  if (!begin_table("control", {"scan", "target", "east mm", "north mm", "elevation mm", "together mm"})) return;
+  if (!begin_table("control", {"scan", "target", "east mm", "north mm", "elevation mm", "together mm", "used"})) return;
   for (const ControlResidual& residual : registration.control) {
     cell(residual.scan);
     cell(residual.id);
     for (int k = 0; k < 3; ++k) number_cell(with_sign(1e3 * residual.residual_m[k], 1));
     number_cell(millimetres(residual.residual_m.norm()));
+    cell(residual.used ? "yes" : "no");
   }
   ImGui::EndTable();
 }
@@ -94,8 +95,8 @@ void draw_registration(Workspace& workspace) {
   const RegistrationResult& registration = state->results.registration;
   ImGui::BeginChild("registration");
   ImGui::TextColored(registration.accepted ? theme::good : theme::bad, "%s",
-                     registration.accepted ? "Every scan is placed and every direction determined."
-                                           : "A scan or a direction is not determined: see the findings.");
+                     registration.accepted ? "Accepted: every scan is placed, every direction is determined."
+                                           : "Not accepted: the findings name what is to be decided.");
   draw_scans(workspace, *state);
   ImGui::Spacing();
   if (!registration.pairs.empty()) draw_pairs(registration.pairs);

@@ -1,0 +1,133 @@
+#include "core/registration/adjustment.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace adit {
+namespace {
+
+constexpr double wrong_pair_misfit = 400.0;  // twenty of the pair's own sigmas: its model errors are a few
+constexpr double wrong_control_sigmas = 5.0;
+constexpr double observation_cost = 8.0;  // a suspect with more observations has to explain more
+constexpr double clear_cost = 30.0;       // by this much the best suspect must be better than the next
+constexpr std::size_t least_control_points = 3;
+
+bool consistent(const PoseGraphResult& solved, double control_sigma_m) {
+  const auto wrong_residual = [&](const Eigen::Vector3d& r) {
+    return r.cwiseAbs().maxCoeff() > wrong_control_sigmas * control_sigma_m;
+  };
+  return std::none_of(solved.pair_misfit.begin(), solved.pair_misfit.end(),
+                      [](double misfit) { return misfit >= wrong_pair_misfit; }) &&
+         std::none_of(solved.control_residual_m.begin(), solved.control_residual_m.end(), wrong_residual);
+}
+
+std::vector<Suspect> all_suspects(const PoseGraph& graph, const Adjustment& adjustment) {
+  std::vector<Suspect> suspects;
+  for (std::size_t k = 0; k < graph.pairs.size(); ++k)
+    if (adjustment.pair_used[k]) suspects.push_back({Suspect::Kind::pair, {k}, {}});
+  std::map<std::string, std::vector<std::size_t>> of_point;
+  std::map<std::size_t, std::vector<std::size_t>> of_scan;
+  for (std::size_t k = 0; k < graph.control.size(); ++k) {
+    if (!adjustment.control_used[k]) continue;
+    suspects.push_back({Suspect::Kind::observation, {}, {k}});
+    of_point[graph.control[k].id].push_back(k);
+    of_scan[graph.control[k].node].push_back(k);
+  }
+  for (const auto& [id, members] : of_point)
+    if (members.size() > 1) suspects.push_back({Suspect::Kind::point, {}, members});
+  for (const auto& [node, members] : of_scan)
+    if (members.size() > 1) suspects.push_back({Suspect::Kind::scan, {}, members});
+  return suspects;
+}
+
+void leave_out(Adjustment& adjustment, const Suspect& suspect) {
+  for (const std::size_t k : suspect.pairs) adjustment.pair_used[k] = false;
+  for (const std::size_t k : suspect.control) adjustment.control_used[k] = false;
+}
+
+/// The graph of what is used. Residuals of its result are in the order of what is used, too.
+PoseGraph used_part(const PoseGraph& graph, const Adjustment& adjustment) {
+  PoseGraph part = graph;
+  part.pairs.clear();
+  part.control.clear();
+  for (std::size_t k = 0; k < graph.pairs.size(); ++k)
+    if (adjustment.pair_used[k]) part.pairs.push_back(graph.pairs[k]);
+  for (std::size_t k = 0; k < graph.control.size(); ++k)
+    if (adjustment.control_used[k]) part.control.push_back(graph.control[k]);
+  if (part.control.empty()) part.datum = graph.datum.value_or(0);
+  return part;
+}
+
+bool enough_control(const PoseGraph& graph, const Adjustment& adjustment) {
+  std::set<std::string> all, left;
+  for (std::size_t k = 0; k < graph.control.size(); ++k) {
+    all.insert(graph.control[k].id);
+    if (adjustment.control_used[k]) left.insert(graph.control[k].id);
+  }
+  return left.size() >= std::min(all.size(), least_control_points);
+}
+
+struct Trial {
+  Suspect suspect;
+  double cost = 0.0;  ///< what stays unexplained without the suspect, and what it costs to leave it out
+  bool ends_it = false;
+  bool permitted = false;
+};
+
+std::vector<Trial> trials(const PoseGraph& graph, const Adjustment& adjustment, Progress& progress) {
+  std::vector<Trial> tried;
+  for (const Suspect& suspect : all_suspects(graph, adjustment)) {
+    Adjustment without = adjustment;
+    leave_out(without, suspect);
+    PoseGraph part = used_part(graph, without);
+    part.with_covariance = false;
+    const PoseGraphResult solved = solve_pose_graph(part, progress);
+    const auto observations = static_cast<double>(suspect.pairs.size() + suspect.control.size());
+    tried.push_back({suspect, solved.cost + observation_cost * observations,
+                     consistent(solved, graph.control_sigma_m), enough_control(graph, without)});
+  }
+  std::stable_sort(tried.begin(), tried.end(), [](const Trial& a, const Trial& b) { return a.cost < b.cost; });
+  return tried;
+}
+
+/// True when leaving out b leaves out a, too: then b explains nothing that a does not.
+bool holds(const Suspect& b, const Suspect& a) {
+  const auto within = [](const std::vector<std::size_t>& inner, const std::vector<std::size_t>& outer) {
+    return std::includes(outer.begin(), outer.end(), inner.begin(), inner.end());
+  };
+  return within(a.pairs, b.pairs) && within(a.control, b.control);
+}
+
+/// One step: something is left out, or the contradiction stays and is named. False when it stays.
+bool settle_one(const PoseGraph& graph, Adjustment& adjustment, Progress& progress) {
+  const std::vector<Trial> tried = trials(graph, adjustment, progress);
+  if (tried.empty()) return false;
+  const Trial& best = tried.front();
+  Contradiction contradiction;
+  contradiction.suspects.push_back(best.suspect);
+  for (std::size_t i = 1; best.ends_it && i < tried.size(); ++i) {
+    const Trial& other = tried[i];
+    if (other.ends_it && other.cost < best.cost + clear_cost && !holds(other.suspect, best.suspect))
+      contradiction.suspects.push_back(other.suspect);
+  }
+  contradiction.left_out = best.permitted && contradiction.suspects.size() == 1;
+  if (contradiction.left_out) leave_out(adjustment, best.suspect);
+  adjustment.contradictions.push_back(contradiction);
+  return contradiction.left_out;
+}
+
+}  // namespace
+
+Adjustment adjusted(const PoseGraph& graph, Progress& progress) {
+  Adjustment adjustment;
+  adjustment.pair_used.assign(graph.pairs.size(), true);
+  adjustment.control_used.assign(graph.control.size(), true);
+  for (;;) {
+    adjustment.solved = solve_pose_graph(used_part(graph, adjustment), progress);
+    if (consistent(adjustment.solved, graph.control_sigma_m) || !settle_one(graph, adjustment, progress))
+      return adjustment;
+  }
+}
+
+}  // namespace adit

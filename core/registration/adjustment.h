@@ -1,0 +1,42 @@
+#pragma once
+// The adjustment of all scans, without the observations that contradict the others.
+
+#include <vector>
+
+#include "core/foundation/progress.h"
+#include "core/registration/pose_graph.h"
+
+namespace adit {
+
+/// Observations that may be wrong together, as indices into the graph.
+struct Suspect {
+  enum class Kind {
+    pair,         ///< one pair of scans
+    observation,  ///< one target in one scan
+    point,        ///< a control point: its targets in all scans
+    scan          ///< all targets of a scan
+  };
+  Kind kind = Kind::pair;
+  std::vector<std::size_t> pairs;
+  std::vector<std::size_t> control;
+};
+
+/// One contradiction among the observations.
+struct Contradiction {
+  std::vector<Suspect> suspects;  ///< one when left out; else all whose absence would end the contradiction
+  bool left_out = false;          ///< false: the others cannot tell which suspect is wrong, so all stay in
+};
+
+struct Adjustment {
+  PoseGraphResult solved;
+  std::vector<bool> pair_used;     ///< of the graph's pairs
+  std::vector<bool> control_used;  ///< of the graph's control
+  std::vector<Contradiction> contradictions;
+};
+
+/// Solves the graph. While observations contradict each other (a pair twenty of its own sigmas off, a target five), every
+/// suspect is left out in turn (data snooping by trial, after Baarda 1968), and the one whose absence explains most goes
+/// for good; unless another explains as much, or too little control would be left. Deterministic.
+Adjustment adjusted(const PoseGraph& graph, Progress& progress);
+
+}  // namespace adit
