@@ -41,8 +41,8 @@ void check_near_axis(const JobState& state, const Eigen::Vector3d& place, const 
                       : "check its coordinates, and those of " + state.job.alignment);
 }
 
-/// Coordinates that all lie off the axis, and all near it once east and north change places. East and north of a country
-/// differ by so much that one place tells; in a local grid only all together do.
+/// Coordinates that all lie off the axis, and all near it once east and north change places. East and north of a
+/// country differ by so much that one place tells; in a local grid only all together do.
 void check_not_swapped(const JobState& state, const std::vector<Eigen::Vector3d>& places, const std::string& what,
                        const std::string& where) {
   const auto near = [&](double east, double north) {

@@ -55,8 +55,7 @@ Findings scans_beside_axis(const JobState& state) {
     if (!scans[i].placed) continue;
     const Eigen::Vector3d place = place_of(state, i);
     if (distance_to_axis_m(*state.alignment, place.head<2>()) <= farthest_scan_from_axis_m) continue;
-    const bool swapped =
-        distance_to_axis_m(*state.alignment, {place.y(), place.x()}) <= farthest_scan_from_axis_m;
+    const bool swapped = distance_to_axis_m(*state.alignment, {place.y(), place.x()}) <= farthest_scan_from_axis_m;
     findings.push_back({Severity::decision, "scan " + scans[i].name,
                         "stands " + place_in_words(*state.alignment, place) + ", far from the tunnel",
                         swapped ? "east and north seem to be swapped: check the poses and the control"

@@ -74,11 +74,10 @@ json registration_json(const Results& results) {
                             {"used", pair.used}});
   out["control"] = json::array();
   for (const ControlResidual& c : registration.control)
-    out["control"].push_back(
-        {{"scan", c.scan},
-         {"id", c.id},
-         {"residual_mm", {1e3 * c.residual_m.x(), 1e3 * c.residual_m.y(), 1e3 * c.residual_m.z()}},
-         {"used", c.used}});
+    out["control"].push_back({{"scan", c.scan},
+                              {"id", c.id},
+                              {"residual_mm", {1e3 * c.residual_m.x(), 1e3 * c.residual_m.y(), 1e3 * c.residual_m.z()}},
+                              {"used", c.used}});
   out["datum_sigma_mm"] = 1e3 * registration.datum_sigma_m;
   out["control_rms_mm"] = 1e3 * registration.control_rms_m;
   return out;

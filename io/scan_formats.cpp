@@ -73,12 +73,16 @@ std::vector<ScanFormat> make_formats() {
       {{".ply"},
        is_ply,
        [](auto& file, auto& options, auto& progress) { return one(read_ply(file, options, progress)); },
-       [](auto& file, auto& progress) { return with_box(summarise_ply(file), read_ply(file, finite_points, progress)); },
+       [](auto& file, auto& progress) {
+         return with_box(summarise_ply(file), read_ply(file, finite_points, progress));
+       },
        [](auto& file, auto& scans, auto& options, auto& progress) { write_ply(file, scans[0], options, progress); }},
       {{".pcd"},
        is_pcd,
        [](auto& file, auto& options, auto& progress) { return one(read_pcd(file, options, progress)); },
-       [](auto& file, auto& progress) { return with_box(summarise_pcd(file), read_pcd(file, finite_points, progress)); },
+       [](auto& file, auto& progress) {
+         return with_box(summarise_pcd(file), read_pcd(file, finite_points, progress));
+       },
        [](auto& file, auto& scans, auto& options, auto& progress) { write_pcd(file, scans[0], options, progress); }},
       {{".las"},
        is_las,

@@ -73,8 +73,8 @@ void report_weak_coverage(ProfileResult& result, const DeviationMap& map, std::u
   std::snprintf(words, sizeof words,
                 "%zu of %zu sections were seen to less than 80 %%; the least is %.0f %% at chainage %.2f", weak,
                 result.sections.size(), 100.0 * worst, worst_chainage);
-  result.findings.push_back({Severity::warning, "sections", words,
-                             mend_of_coverage(map, sparse_cells, "add a scan there")});
+  result.findings.push_back(
+      {Severity::warning, "sections", words, mend_of_coverage(map, sparse_cells, "add a scan there")});
   const double mean = sum / static_cast<double>(result.sections.size());
   if (mean >= least_coverage) return;
   std::snprintf(

@@ -76,7 +76,8 @@ std::vector<Eigen::Vector3d> surface_points(const JobState& state, const std::ve
   char words[160];
   std::snprintf(words, sizeof words, "no point of the scans lies near the design line between chainage %.3f and %.3f",
                 stretch.from_m, stretch.to_m);
-  throw Error(words + (": " + places_in_words(state)), state.file.string(), "check the poses of the scans, their unit, the axis and the chainage");
+  throw Error(words + (": " + places_in_words(state)), state.file.string(),
+              "check the poses of the scans, their unit, the axis and the chainage");
 }
 
 void add_deviations(JobState& state, SurfaceResult& result) {

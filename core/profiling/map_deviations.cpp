@@ -147,7 +147,8 @@ MapCell surface_cell(const Entry* begin, const Entry* end, const ProfilingOption
 }
 
 /// The number of cells whose points were too few.
-std::uint64_t fill_slab(DeviationMap& map, std::vector<Entry>& entries, std::size_t first_row, const ProfilingOptions& options) {
+std::uint64_t fill_slab(DeviationMap& map, std::vector<Entry>& entries, std::size_t first_row,
+                        const ProfilingOptions& options) {
   tbb::parallel_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.cell, a.deviation_m, a.place) < std::tie(b.cell, b.deviation_m, b.place);
   });

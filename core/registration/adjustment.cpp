@@ -84,8 +84,8 @@ std::vector<Trial> trials(const PoseGraph& graph, const Adjustment& adjustment, 
     part.with_covariance = false;
     const PoseGraphResult solved = solve_pose_graph(part, progress);
     const auto observations = static_cast<double>(suspect.pairs.size() + suspect.control.size());
-    tried.push_back({suspect, solved.cost + observation_cost * observations,
-                     consistent(solved, graph.control_sigma_m), enough_control(graph, without)});
+    tried.push_back({suspect, solved.cost + observation_cost * observations, consistent(solved, graph.control_sigma_m),
+                     enough_control(graph, without)});
   }
   std::stable_sort(tried.begin(), tried.end(), [](const Trial& a, const Trial& b) { return a.cost < b.cost; });
   return tried;

@@ -34,9 +34,9 @@ struct Adjustment {
   std::vector<Contradiction> contradictions;
 };
 
-/// Solves the graph. While observations contradict each other (a pair twenty of its own sigmas off, a target five), every
-/// suspect is left out in turn (data snooping by trial, after Baarda 1968), and the one whose absence explains most goes
-/// for good; unless another explains as much, or too little control would be left. Deterministic.
+/// Solves the graph. While observations contradict each other (a pair twenty of its own sigmas off, a target five),
+/// every suspect is left out in turn (data snooping by trial, after Baarda 1968), and the one whose absence explains
+/// most goes for good; unless another explains as much, or too little control would be left. Deterministic.
 Adjustment adjusted(const PoseGraph& graph, Progress& progress);
 
 }  // namespace adit

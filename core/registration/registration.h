@@ -90,13 +90,15 @@ struct PlacedScan {
 };
 
 struct RegistrationResult {
-  bool accepted = false;  ///< no finding needs a decision: every scan placed, every direction determined, nothing contradicts
+  bool accepted =
+      false;  ///< no finding needs a decision: every scan placed, every direction determined, nothing contradicts
   std::vector<PlacedScan> scans;
   std::vector<PairResult> pairs;
   std::vector<ControlResidual> control;
   double control_rms_m = 0.0;
-  /// How well the whole survey stands in the site frame, beside the sigmas of the scans, which are relative to the datum:
-  /// zero with control; without, what the guess of the datum scan is worth (position, and direction over half the span).
+  /// How well the whole survey stands in the site frame, beside the sigmas of the scans, which are relative to the
+  /// datum: zero with control; without, what the guess of the datum scan is worth (position, and direction over half
+  /// the span).
   double datum_sigma_m = 0.0;
   Findings findings;
 };

@@ -20,6 +20,11 @@ double along_line(double a_m, double b_m, double length_m) {
   return std::abs(std::remainder(a_m - b_m, length_m));
 }
 
+/// Without hypot's care for overflow, which costs half of a cast.
+double length_of(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
 double box_distance(const Eigen::Vector3d& point, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   const Eigen::Vector3d outside = (low - point).cwiseMax(point - high);
   return outside.cwiseMax(0.0).norm() + std::min(outside.maxCoeff(), 0.0);
@@ -44,10 +49,13 @@ void RockTunnel::fill_grid() {
   const RockWaves rock(options_.seed, 1, options_.shortest_wave_m, options_.longest_wave_m, length);
   const RockWaves muck(options_.seed, 2, 1.2, 8.0, length);
   std::vector<double> taper(columns_);
+  std::vector<RockWaves::Phases> rock_at_p(columns_), muck_at_p(columns_);
   lookout_.resize(columns_);
   floor_.resize(columns_);
   for (std::size_t c = 0; c < columns_; ++c) {
     const ProfilePoint point = profile_.at(static_cast<double>(c) * step_p_m_ - 0.5 * length);
+    rock_at_p[c] = rock.phases_at_p(static_cast<double>(c) * step_p_m_ - 0.5 * length);
+    muck_at_p[c] = muck.phases_at_p(static_cast<double>(c) * step_p_m_ - 0.5 * length);
     floor_[c] = smooth_step((-point.normal.y() - 0.5) / 0.3);
     taper[c] = 1.0;
     for (const ProfileCorner& corner : profile_.corners())
@@ -60,10 +68,11 @@ void RockTunnel::fill_grid() {
       rows_,
       [&](std::size_t r) {
         const double s = options_.from_m + static_cast<double>(r) * step_s_m_;
+        const RockWaves::Phases rock_at_s = rock.phases_at_s(s);
+        const RockWaves::Phases muck_at_s = muck.phases_at_s(s);
         for (std::size_t c = 0; c < columns_; ++c) {
-          const double p = static_cast<double>(c) * step_p_m_ - 0.5 * length;
-          const double wall = options_.roughness_sigma_m * rock.at(s, p);
-          const double floor = options_.floor_mean_m + options_.floor_sigma_m * muck.at(s, p);
+          const double wall = options_.roughness_sigma_m * rock.at(rock_at_s, rock_at_p[c]);
+          const double floor = options_.floor_mean_m + options_.floor_sigma_m * muck.at(muck_at_s, muck_at_p[c]);
           grid_[r * columns_ + c] = lookout_[c] * wall + floor_[c] * floor + (1.0 - taper[c]) * options_.corner_m;
         }
       },
@@ -103,9 +112,10 @@ double RockTunnel::clutter_distance(const TunnelPoint& point, Surface& surface) 
   };
   const double face = options_.face_m;
   const double beyond_duct = std::max(point.s_m - (face - 9.0), 0.0);
-  offer(std::hypot(std::max(std::hypot(point.x_m + 0.35 * half_width_m_, point.z_m - (crown_z_m_ - 0.85)) - 0.4, 0.0),
-                   beyond_duct),
+  offer(length_of(std::max(length_of(point.x_m + 0.35 * half_width_m_, point.z_m - (crown_z_m_ - 0.85)) - 0.4, 0.0),
+                  beyond_duct),
         Surface::duct);
+  if (face - 14.0 - point.s_m > best) return best;  // the rig and the muck are farther
   const Eigen::Vector3d q(point.s_m, point.x_m, point.z_m);
   const double right = 0.30 * half_width_m_;
   offer(box_distance(q, {face - 14.0, right - 1.1, 0.4}, {face - 8.0, right + 1.1, 2.3}), Surface::rig);
@@ -129,14 +139,16 @@ RockTunnel::Nearness RockTunnel::nearness(const TunnelPoint& point, const std::v
   const auto offer = [&](double distance, Surface kind) {
     if (distance < nearest.value_m) nearest = {distance, kind};
   };
-  offer(face_chainage(point.x_m, point.z_m) - point.s_m, Surface::face);
+  constexpr double face_relief_m = 0.17;
+  if (options_.face_m - face_relief_m - point.s_m < nearest.value_m)
+    offer(face_chainage(point.x_m, point.z_m) - point.s_m, Surface::face);
   if (!options_.clutter) return nearest;
   Surface kind = Surface::rig;
   const double distance = clutter_distance(point, kind);
   offer(distance, kind);
   for (const auto& person : people) {
     const double above = std::max({0.0, point.z_m - 1.5, 0.25 - point.z_m});
-    offer(std::hypot(std::hypot(point.s_m - person.x(), point.x_m - person.y()), above) - 0.25, Surface::person);
+    offer(length_of(length_of(point.s_m - person.x(), point.x_m - person.y()), above) - 0.25, Surface::person);
   }
   return nearest;
 }
@@ -168,7 +180,7 @@ std::optional<RockTunnel::Hit> RockTunnel::cast(const Eigen::Vector3d& origin, c
     double low_value = here->value_m, high_value = next->value_m;
     Surface surface = next->surface;
     const double slope = (low_value - high_value) / (high - low);
-    for (int i = 0; i < 40 && high - low > 1e-6; ++i) {
+    for (int i = 0; i < 40 && high - low > 1e-5; ++i) {
       // False position on even turns, halving on odd ones: fast on smooth rock, safe at the steps.
       const double share = i % 2 == 0 ? std::clamp(low_value / (low_value - high_value), 0.02, 0.98) : 0.5;
       const double middle = low + share * (high - low);
@@ -177,7 +189,7 @@ std::optional<RockTunnel::Hit> RockTunnel::cast(const Eigen::Vector3d& origin, c
       (value->value_m > 0.0 ? low : high) = middle;
       (value->value_m > 0.0 ? low_value : high_value) = value->value_m;
       if (value->value_m <= 0.0) surface = value->surface;
-      if (std::abs(value->value_m) < 2e-6) {
+      if (std::abs(value->value_m) < 1e-5) {
         low = high = middle;
         break;
       }

@@ -28,11 +28,23 @@ class RockWaves {
     }
   }
 
-  double at(double s_m, double p_m) const {
+  /// Sines and cosines of all waves at one s or one p; a grid needs few of them and many sums.
+  struct Phases {
+    std::vector<double> sine;
+    std::vector<double> cosine;
+  };
+  Phases phases_at_s(double s_m) const {
+    return phases([&](const Wave& wave) { return wave.ks * s_m + wave.phase_rad; });
+  }
+  Phases phases_at_p(double p_m) const {
+    return phases([&](const Wave& wave) { return wave.kp * p_m; });
+  }
+  double at(const Phases& s, const Phases& p) const {
     double sum = 0.0;
-    for (const Wave& wave : waves_) sum += std::sin(wave.ks * s_m + wave.kp * p_m + wave.phase_rad);
+    for (std::size_t i = 0; i < waves_.size(); ++i) sum += s.sine[i] * p.cosine[i] + s.cosine[i] * p.sine[i];
     return sum * std::sqrt(2.0 / static_cast<double>(waves_.size()));
   }
+  double at(double s_m, double p_m) const { return at(phases_at_s(s_m), phases_at_p(p_m)); }
 
  private:
   struct Wave {
@@ -40,6 +52,17 @@ class RockWaves {
     double kp;
     double phase_rad;
   };
+
+  template <typename Angle>
+  Phases phases(const Angle& angle) const {
+    Phases result;
+    for (const Wave& wave : waves_) {
+      result.sine.push_back(std::sin(angle(wave)));
+      result.cosine.push_back(std::cos(angle(wave)));
+    }
+    return result;
+  }
+
   std::vector<Wave> waves_;
 };
 

@@ -136,7 +136,8 @@ void add_control(PageFlow& flow, const Results& results) {
                           fixed(1000.0 * r.residual_m.norm(), 1),
                           TableCell(r.used ? "yes" : "no", r.used ? colours::black : colours::red, !r.used)});
   flow.table(table);
-  flow.paragraph("Root mean square of the targets used, per axis: " + fixed(1000.0 * results.registration.control_rms_m, 1) + " mm.",
+  flow.paragraph("Root mean square of the targets used, per axis: " +
+                     fixed(1000.0 * results.registration.control_rms_m, 1) + " mm.",
                  colours::black, 2.6, true);
 }
 
