@@ -12,51 +12,25 @@ struct Row {
   const ProfileStretch& stretch;
   double step_m;
   std::vector<MapCell> cells;
-  std::vector<char> chord;  ///< cells passed by a straight chord
 
   std::size_t size() const { return cells.size(); }
   double begin_q(std::size_t column) const { return static_cast<double>(column) * step_m; }
   double end_q(std::size_t column) const { return std::min(begin_q(column) + step_m, stretch.length_m()); }
   double centre_q(std::size_t column) const { return 0.5 * (begin_q(column) + end_q(column)); }
   double line_m(std::size_t column) const { return stretch.line_length_m(begin_q(column), end_q(column)); }
-
-  /// True when a convex corner lies within the columns after `before`.
-  bool has_wedge(std::size_t before, std::size_t count) const {
-    for (std::size_t k = 0; k <= count + 1; ++k) {
-      const std::size_t c = (before + k) % size();
-      if (line_m(c) < end_q(c) - begin_q(c) - 1e-9) return true;
-    }
-    return false;
-  }
-
-  Eigen::Vector2d position(std::size_t column) const {
-    const ProfilePoint at = stretch.at(centre_q(column));
-    return at.position + static_cast<double>(cells[column].deviation_m) * at.normal;
-  }
 };
 
-/// Closes a gap of `count` columns after `before` (cyclic). Along a smooth line the deviation is interpolated; across a
-/// corner, where the line turns and rock or muck does not, the gap is closed by a straight chord.
+/// Closes a gap of `count` columns after `before` (cyclic): the deviation is interpolated along the line, around its
+/// corners, too. A straight chord across a corner would invent underbreak that nobody has seen.
 void fill_gap(Row& row, std::size_t before, std::size_t count) {
   const std::size_t n = row.size();
-  const std::size_t after = (before + count + 1) % n;
-  const Eigen::Vector2d a = row.position(before);
-  const Eigen::Vector2d b = row.position(after);
   const double d0 = static_cast<double>(row.cells[before].deviation_m);
-  const double d1 = static_cast<double>(row.cells[after].deviation_m);
-  const bool corner = row.has_wedge(before, count);
+  const double d1 = static_cast<double>(row.cells[(before + count + 1) % n].deviation_m);
   for (std::size_t k = 1; k <= count; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(count + 1);
     MapCell& cell = row.cells[(before + k) % n];
     cell.kind = CellKind::interpolated;
-    if (!corner) {
-      cell.deviation_m = static_cast<float>(d0 + share * (d1 - d0));
-      continue;
-    }
-    row.chord[(before + k) % n] = 1;
-    const ProfilePoint at = row.stretch.at(row.centre_q((before + k) % n));
-    const Eigen::Vector2d on_chord = a + share * (b - a);
-    cell.deviation_m = static_cast<float>((on_chord - at.position).dot(at.normal));
+    cell.deviation_m = static_cast<float>(d0 + share * (d1 - d0));
   }
 }
 
@@ -77,11 +51,6 @@ void fill_gaps(Row& row, double gap_m) {
   }
 }
 
-/// Cells of a chord are not points of the outline: the chord runs straight past them.
-bool inside_chord(const Row& row, std::size_t column) {
-  return row.chord[column] != 0;
-}
-
 OutlinePoint outline_point(const ProfilePoint& at, double deviation_m, CellKind kind) {
   return {at.position + deviation_m * at.normal, at.p_m, deviation_m, kind, at.normal};
 }
@@ -89,9 +58,7 @@ OutlinePoint outline_point(const ProfilePoint& at, double deviation_m, CellKind 
 }  // namespace
 
 Outline outline_of(const std::vector<MapCell>& cells, const ProfileStretch& stretch, double step_q_m, double gap_m) {
-  Row row{
-      stretch, step_q_m, {cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(stretch.columns(step_q_m))}, {}};
-  row.chord.assign(row.size(), 0);
+  Row row{stretch, step_q_m, {cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(stretch.columns(step_q_m))}};
   for (MapCell& cell : row.cells)
     if (cell.kind == CellKind::interpolated) cell = MapCell{};  // of an earlier filling
   fill_gaps(row, gap_m);
@@ -109,10 +76,9 @@ Outline outline_of(const std::vector<MapCell>& cells, const ProfileStretch& stre
     const MapCell& there = row.cells[next];
     const bool unseen = here.kind == CellKind::unseen;
     const double d0 = unseen ? 0.0 : static_cast<double>(here.deviation_m);
-    if (!inside_chord(row, c)) outline.points.push_back(outline_point(stretch.at(row.centre_q(c)), d0, here.kind));
-    const bool chord = inside_chord(row, c) || inside_chord(row, next);
+    outline.points.push_back(outline_point(stretch.at(row.centre_q(c)), d0, here.kind));
     const bool both_unseen = unseen && there.kind == CellKind::unseen;
-    if (chord || (!both_unseen && (unseen || there.kind == CellKind::unseen))) continue;
+    if (!both_unseen && (unseen || there.kind == CellKind::unseen)) continue;
     const double d1 = both_unseen ? 0.0 : static_cast<double>(there.deviation_m);
     const double span =
         next > c ? row.centre_q(next) - row.centre_q(c) : row.centre_q(next) + stretch.length_m() - row.centre_q(c);

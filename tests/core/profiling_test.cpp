@@ -159,6 +159,26 @@ TEST(Section, WhatLiesOutsideACornerIsKept) {
   EXPECT_NEAR(outline.measured_m, 16.0, 1e-6);  // the wedges at the corners add nothing to the length of the line
 }
 
+TEST(Section, AGapAtACornerInventsNoUnderbreak) {
+  const Profile square("square",
+                       {{{-2, 0}, {-2, 4}, 0}, {{-2, 4}, {2, 4}, 0}, {{2, 4}, {2, 0}, 0}, {{2, 0}, {-2, 0}, 0}});
+  const ProfileStretch stretch(square);
+  for (const float deviation_m : {0.0F, 0.1F}) {
+    std::vector<MapCell> row(stretch.columns(0.1));
+    for (auto& cell : row) cell = {deviation_m, 0.0F, 10, CellKind::measured};
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const Eigen::Vector2d at = stretch.at((static_cast<double>(c) + 0.5) * 0.1).position;
+      if ((at - Eigen::Vector2d(2.0, 4.0)).norm() < 0.45) row[c] = MapCell{};
+    }
+    const Outline outline = outline_of(row, stretch, 0.1, 1.0);
+    EXPECT_GT(outline.interpolated_m, 0.7);
+    EXPECT_NEAR(outline.unseen_m, 0.0, 1e-9);
+    const SectionAreas areas = section_areas(outline, stretch, 0.1, line_polygon(square, {"excavation", 0.0}));
+    EXPECT_NEAR(areas.underbreak_m2, 0.0, 1e-3);
+    EXPECT_NEAR(areas.overbreak_m2, 16.0 * static_cast<double>(deviation_m), 0.05);
+  }
+}
+
 TEST(Map, ADuctInFrontOfTheRockIsLeftOutAndSaid) {
   const DesignTunnel design = sample_design(circle_profile());
   const auto duct = [](double, double angle) { return angle > 0.5 && angle < 0.65 ? -0.45 : 0.1; };
