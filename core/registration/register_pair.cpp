@@ -86,13 +86,12 @@ void judge(PairResult& pair, const PreparedScan& target, const PreparedScan& sou
 
 double overlap_at(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                   double distance_m) {
-  const auto reach2 = static_cast<float>(distance_m * distance_m);
   const std::size_t near =
       parallel_ordered_sum(source.points.size(), 4096, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
         std::size_t count = 0;
         for (std::size_t i = begin; i < end; ++i) {
           const Eigen::Vector3d q = target_from_source * source.points[i].cast<double>();
-          if (target.tree->nearest(q.cast<float>()).squared_distance_m2 <= reach2) ++count;
+          if (target.tree->nearest_within(q.cast<float>(), distance_m)) ++count;
         }
         return count;
       });

@@ -43,7 +43,8 @@ void add_methods(PageFlow& flow, const std::vector<Volume>& lines) {
   flow.paragraph(
       "The number to use is that of the thin slices. Average end areas and prismoidal volumes stand beside it for "
       "comparison; they are taken from "
-      "the sections on over- and underbreak separately and know nothing of the axis' curvature.",
+      "the sections on over- and underbreak separately and know nothing of the axis' curvature. Excavated volumes differ "
+      "from line to line where nothing was seen: there the rock is taken to lie on the line in question.",
       colours::grey, 2.3);
 }
 

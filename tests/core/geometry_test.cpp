@@ -5,6 +5,7 @@
 
 #include "core/foundation/angle.h"
 #include "core/foundation/random.h"
+#include "core/geometry/nearest_neighbours.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/pose.h"
 #include "core/geometry/statistics.h"
@@ -71,6 +72,34 @@ PointCloud noise_cloud(std::size_t n) {
     cloud.intensity.push_back(static_cast<float>(i));
   }
   return cloud;
+}
+
+TEST(NearestNeighbours, WithinReachAreThoseOfBruteForce) {
+  const Random random(8);
+  std::uint64_t n = 0;
+  const auto place = [&](float size) {
+    n += 3;
+    return Eigen::Vector3f(
+        size * Eigen::Vector3d(random.uniform(n), random.uniform(n + 1), random.uniform(n + 2)).cast<float>());
+  };
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 2000; ++i) points.push_back(place(4.0F));
+  const NearestNeighbours tree(points);
+  int found = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3f query = place(6.0F);
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < points.size(); ++k)
+      if ((points[k] - query).squaredNorm() < (points[best] - query).squaredNorm()) best = k;
+    const auto nearest = tree.nearest_within(query, 0.3);
+    ASSERT_EQ(nearest.has_value(), (points[best] - query).norm() <= 0.3F);
+    if (!nearest) continue;
+    ++found;
+    EXPECT_EQ(nearest->index, best);
+    EXPECT_NEAR(nearest->squared_distance_m2, (points[best] - query).squaredNorm(), 1e-6F);
+  }
+  EXPECT_GT(found, 50);
+  EXPECT_LT(found, 450);
 }
 
 TEST(Tiles, DoNotDependOnTheOrderOfThePoints) {
