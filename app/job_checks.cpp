@@ -51,7 +51,7 @@ void check_not_swapped(const JobState& state, const std::vector<Eigen::Vector3d>
   const auto seems_swapped = [&](const Eigen::Vector3d& p) { return !near(p.x(), p.y()) && near(p.y(), p.x()); };
   if (places.empty() || !std::all_of(places.begin(), places.end(), seems_swapped)) return;
   char words[100];
-  std::snprintf(words, sizeof words, " lie %.3g m and more from the axis",
+  std::snprintf(words, sizeof words, " lie far from the axis, the first %.0f m",
                 distance_to_axis_m(*state.alignment, places.front().head<2>()));
   throw Error(what + words, where, "east and north seem to be swapped, here or in " + state.job.alignment);
 }

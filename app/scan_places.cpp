@@ -31,7 +31,7 @@ std::string place_in_words(const Alignment& axis, const Eigen::Vector3d& place) 
     std::snprintf(words, sizeof words, "at chainage %.1f, %.1f m %s of the axis", at->s_m, std::abs(at->x_m),
                   at->x_m < 0.0 ? "left" : "right");
   else
-    std::snprintf(words, sizeof words, distance < 10000.0 ? "%.0f m from the axis" : "%.4g m from the axis", distance);
+    std::snprintf(words, sizeof words, "%.0f m from the axis", distance);
   return words;
 }
 

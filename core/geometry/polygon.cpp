@@ -40,11 +40,11 @@ std::vector<Crossing> self_crossings(const Polygon& ring) {
   std::vector<Crossing> crossings;
   const std::size_t n = ring.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector2d p = ring[i];
+    const Eigen::Vector2d& p = ring[i];
     const Eigen::Vector2d r = ring[(i + 1) % n] - p;
     for (std::size_t j = i + 2; j < n; ++j) {
       if (i == 0 && j == n - 1) continue;  // neighbours across the closing point
-      const Eigen::Vector2d q = ring[j];
+      const Eigen::Vector2d& q = ring[j];
       const Eigen::Vector2d s = ring[(j + 1) % n] - q;
       const double denominator = cross(r, s);
       if (std::abs(denominator) < 1e-15) continue;

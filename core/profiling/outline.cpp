@@ -43,7 +43,7 @@ void fill_gaps(Row& row, double gap_m) {
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const std::size_t before = measured[i];
     const std::size_t after = measured[(i + 1) % measured.size()];
-    const std::size_t count = (after + n - before - 1) % n;
+    const std::size_t count = (after > before ? after : after + n) - before - 1;
     if (count == 0) continue;
     double length = 0.0;
     for (std::size_t k = 1; k <= count; ++k) length += row.line_m((before + k) % n);
