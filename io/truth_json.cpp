@@ -39,8 +39,7 @@ Truth read_truth(const std::filesystem::path& file) {
     truth.scan_names.push_back(scan.at("name").text());
     const auto values = scan.at("pose").numbers(16);
     Eigen::Matrix4d matrix;
-    for (int r = 0; r < 4; ++r)
-      for (int c = 0; c < 4; ++c) matrix(r, c) = values[static_cast<std::size_t>(4 * r + c)];
+    for (int k = 0; k < 16; ++k) matrix(k / 4, k % 4) = values[static_cast<std::size_t>(k)];
     if (!is_rigid(matrix)) scan.at("pose").refuse("this is no rigid transform", "make the job again with adit demo");
     truth.site_from_scan.emplace_back(matrix);
   }

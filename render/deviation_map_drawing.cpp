@@ -146,9 +146,10 @@ void draw_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, 
   canvas.hatch({ring_of(unseen)}, {colours::light_grey, 0.15, {}}, 1.0, M_PI / 4.0);
   canvas.frame(unseen, {colours::grey, 0.12, {}});
   canvas.fill(guessed, mixed(deviation_colour(scale, 0.6 * scale.most_m), colours::white, 0.55));
-  for (int i = 0; i < 8; ++i)
-    canvas.disc({guessed.left + 0.5 + i % 4, guessed.top + 0.8 + 1.0 * (i / 4)}, 0.12,
-                mixed(deviation_colour(scale, 0.6 * scale.most_m), colours::black, 0.5));
+  for (const double down : {0.8, 1.8})
+    for (const double right : {0.5, 1.5, 2.5, 3.5})
+      canvas.disc({guessed.left + right, guessed.top + down}, 0.12,
+                  mixed(deviation_colour(scale, 0.6 * scale.most_m), colours::black, 0.5));
   canvas.frame(guessed, {colours::grey, 0.12, {}});
   canvas.text({x + 5.0, unseen.centre().y()}, "not seen", {.size_mm = text_mm, .down = Down::middle});
   canvas.text({x + 5.0, guessed.centre().y()}, "interpolated", {.size_mm = text_mm, .down = Down::middle});
