@@ -17,12 +17,16 @@ int draw_pages(Canvas& canvas, const ReportContent& content, const std::vector<R
                const Progress& progress) {
   const Job& job = *content.job;
   PageFlow flow(canvas, {job.name, job.client, job.surveyor, content.results->version, content.date, pages});
-  add_title_page(flow, content, views);
-  add_registration_pages(flow, content);
-  add_volume_pages(flow, content);
-  add_chainage_pages(flow, content);
-  add_map_page(flow, content);
-  add_view_pages(flow, views);
+  const auto then = [&](const auto& add_pages) {  // a cancel is heard between the parts
+    progress.check();
+    add_pages();
+  };
+  then([&] { add_title_page(flow, content, views); });
+  then([&] { add_registration_pages(flow, content); });
+  then([&] { add_volume_pages(flow, content); });
+  then([&] { add_chainage_pages(flow, content); });
+  then([&] { add_map_page(flow, content); });
+  then([&] { add_view_pages(flow, views); });
   add_section_pages(flow, content, progress);
   add_provenance_pages(flow, content);
   return flow.pages();
@@ -83,7 +87,9 @@ ReportFiles draw_report(const ReportContent& content, const GlContext& context, 
   for (const ReportView& view : views) add(view.name, view.picture);
   Progress paging = progress.part(0.4, "report");
   files.pdf = report_pdf(content, views, paging);
+  progress.check();
   if (content.map != nullptr && !content.map->cells.empty()) add("map.png", map_picture(content));
+  progress.check();
   if (content.results->profile && !content.results->profile->sections.empty())
     add("volumes.png", chart_picture(content));
   const Progress drawing = progress.part(0.2, "section drawings");

@@ -23,7 +23,7 @@ PoseGraph survey() {
   const std::vector<Pose> truth = stations();
   const Random random(11);
   std::uint64_t n = 0;
-  const auto noise = [&] {
+  const auto noise = [&]() -> Eigen::Vector3d {
     n += 3;
     return 0.001 * Eigen::Vector3d(random.normal(n), random.normal(n + 1), random.normal(n + 2));
   };
