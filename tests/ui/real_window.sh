@@ -19,7 +19,8 @@ mkdir -p "$pictures"
 "$adit" demo "$folder/job" --stations 2 --points 150000 --no-run --quiet >/dev/null
 
 # A busy machine's server may not answer at once.
-for ((i = 0; i < 100; ++i)); do xdotool getdisplaygeometry >/dev/null 2>&1 && break; sleep 0.1; done
+for ((i = 0; i < 200; ++i)); do xdotool getdisplaygeometry >/dev/null 2>&1 && break; sleep 0.1; done
+xdotool getdisplaygeometry >/dev/null 2>&1 || { say "skipped: the X server $DISPLAY does not answer"; exit 77; }
 "$gui" "$folder/job" & program=$!
 trap 'kill "$program" 2>/dev/null || true; rm -rf "$folder"' EXIT
 
