@@ -107,12 +107,13 @@ bool do_step(JobState& state, const Step& step, const RunOptions& options, Progr
   return true;
 }
 
-/// Results for people that stand in the folder and belong to a step that is not up to date.
+/// Results for people that stand in the folder and belong to a step that is not up to date or no longer wanted.
 Findings stale_files(const JobState& state, const std::vector<Step>& steps, std::size_t first_stale) {
   const std::map<std::string, const char*> file_of_step{
       {"surface", "mesh.ply"}, {"profile", "sections.csv"}, {"volume", "volumes.csv"}, {"report", "report.pdf"}};
   Findings findings;
-  for (std::size_t i = first_stale; i < steps.size(); ++i) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (i < first_stale && steps[i].wanted(state)) continue;
     const auto file = file_of_step.find(steps[i].name);
     std::error_code ignored;
     if (file != file_of_step.end() && fs::exists(state.out / file->second, ignored))

@@ -14,7 +14,7 @@ double distance_to_axis_m(const Alignment& axis, const Eigen::Vector2d& place);
 /// A decision for every placed scan that stands too far from the axis; empty without an axis.
 Findings scans_beside_axis(const JobState& state);
 
-/// "scan S1 at chainage 123.4, 30.0 m right of the axis; ...", of the first placed scans.
+/// "scan S1 stands at chainage 123.4, 30.0 m right of the axis, scan S2 ...": the first few placed scans.
 std::string places_in_words(const JobState& state);
 
 }  // namespace adit::app

@@ -8,9 +8,8 @@ namespace adit {
 namespace {
 
 constexpr double wrong_pair_misfit = 400.0;  // twenty of the pair's own sigmas: its model errors are a few
-constexpr double wrong_control_sigmas = 5.0;
-constexpr double observation_cost = 8.0;  // a suspect with more observations has to explain more
-constexpr double clear_cost = 30.0;       // by this much the best suspect must be better than the next
+constexpr double observation_cost = 8.0;     // a suspect with more observations has to explain more
+constexpr double clear_cost = 30.0;          // by this much the best suspect must be better than the next
 constexpr std::size_t least_control_points = 3;
 
 bool consistent(const PoseGraphResult& solved, double control_sigma_m) {

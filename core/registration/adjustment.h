@@ -8,6 +8,9 @@
 
 namespace adit {
 
+/// A component of a target's residual beyond this many sigmas of control is wrong.
+inline constexpr double wrong_control_sigmas = 5.0;
+
 /// Observations that may be wrong together, as indices into the graph.
 struct Suspect {
   enum class Kind {

@@ -344,7 +344,7 @@ void report_control(RegistrationResult& result, const Adjustment& adjustment, co
     result.control.push_back({name, control.id, residual, adjustment.control_used[k]});
     if (!adjustment.control_used[k]) continue;
     for (const double component : residual) components.push_back(component);
-    if (residual.cwiseAbs().maxCoeff() <= 5.0 * options.control_sigma_m) continue;
+    if (residual.cwiseAbs().maxCoeff() <= wrong_control_sigmas * options.control_sigma_m) continue;
     char words[160];
     std::snprintf(words, sizeof words, "residual of %.1f mm at target %s; over five times its sigma",
                   1000.0 * residual.norm(), control.id.c_str());

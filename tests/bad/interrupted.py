@@ -33,12 +33,13 @@ def disturbed(command, after_s, by):
     return process.returncode, time.monotonic() - start, said
 
 
-def faults_of(code, seconds, said, by):
+def faults_of(code, seconds, said, by, folder):
     if code is None:
         return []
     if by == signal.SIGKILL:
         return ["exit %d after kill -9" % code] if code != -signal.SIGKILL else []
-    return ["exit %d" % code if code not in (130, 0, 1, -by) else "",  # 0, 1: it had all but ended; -by: not yet begun
+    not_begun = code == -by and not folder.exists()  # the program was still being loaded
+    return ["exit %d" % code if code not in (130, 0, 1) and not not_begun else "",  # 0 and 1: it had all but ended
             "answered after %.2f s" % seconds if seconds > LONGEST_S else "",
             "said %r" % said if code == 130 and said != "adit: cancelled; finished steps are kept\n" else ""]
 
@@ -59,7 +60,7 @@ def disturb_runs(program, plain, expected, folder, tally):
             after_s = whole_s * (k + 0.5) / (MOMENTS if by == signal.SIGINT else MOMENTS // 2)
             code, seconds, said = disturbed([program, "run", str(job), "--quiet"], after_s, by)
             cancelled += code == 130
-            faults = faults_of(code, seconds, said, by)
+            faults = faults_of(code, seconds, said, by, job / "out")
             if by != signal.SIGKILL:
                 faults += ["left " + name for name in small_job.temporaries(job)]
             small_job.run(program, job)
@@ -75,7 +76,7 @@ def disturb_one_job_often(program, plain, expected, folder, tally):
     faults = []
     for k in range(12):
         code, seconds, said = disturbed([program, "run", str(job), "--quiet"], 0.15 * (k + 1), signal.SIGINT if k % 2 else signal.SIGKILL)
-        faults += faults_of(code, seconds, said, signal.SIGINT if k % 2 else signal.SIGKILL)
+        faults += faults_of(code, seconds, said, signal.SIGINT if k % 2 else signal.SIGKILL, job / "out")
     small_job.run(program, job)
     if small_job.lasting(job) != expected:
         faults.append("other results")
@@ -92,7 +93,7 @@ def disturb_demos(program, plain, folder, tally):
         for k in range(6):
             demo = folder / ("demo_%s_%d" % (by.name, k))
             code, seconds, said = disturbed(command(demo), whole_s * (k + 0.5) / 6, by)
-            faults = faults_of(code, seconds, said, by)
+            faults = faults_of(code, seconds, said, by, demo)
             if by == signal.SIGINT:
                 faults += ["left " + name for name in small_job.temporaries(demo)]
             if code == 130 and (demo / "job.json").exists():

@@ -20,7 +20,7 @@ mkdir -p "$pictures"
 
 # A busy machine's server may not answer at once.
 for ((i = 0; i < 200; ++i)); do xdotool getdisplaygeometry >/dev/null 2>&1 && break; sleep 0.1; done
-xdotool getdisplaygeometry >/dev/null 2>&1 || { say "skipped: the X server $DISPLAY does not answer"; exit 77; }
+xdotool getdisplaygeometry >/dev/null 2>&1 || { say "the X server $DISPLAY does not answer"; exit 1; }
 "$gui" "$folder/job" & program=$!
 trap 'kill "$program" 2>/dev/null || true; rm -rf "$folder"' EXIT
 
