@@ -18,6 +18,10 @@ struct Row {
   double end_q(std::size_t column) const { return std::min(begin_q(column) + step_m, stretch.length_m()); }
   double centre_q(std::size_t column) const { return 0.5 * (begin_q(column) + end_q(column)); }
   double line_m(std::size_t column) const { return stretch.line_length_m(begin_q(column), end_q(column)); }
+  Eigen::Vector2d position(std::size_t column) const {
+    const ProfilePoint at = stretch.at(centre_q(column));
+    return at.position + static_cast<double>(cells[column].deviation_m) * at.normal;
+  }
 };
 
 /// Closes a gap of `count` columns after `before` (cyclic): the deviation is interpolated along the line, around its
@@ -47,7 +51,9 @@ void fill_gaps(Row& row, double gap_m) {
     if (count == 0) continue;
     double length = 0.0;
     for (std::size_t k = 1; k <= count; ++k) length += row.line_m((before + k) % n);
-    if (length <= gap_m + 1e-9) fill_gap(row, before, count);
+    // Around a corner the line has no length, and far outside it the rock has: both must be bridged.
+    const double across = (row.position(after) - row.position(before)).norm() - row.step_m;
+    if (std::max(length, across) <= gap_m + 1e-9) fill_gap(row, before, count);
   }
 }
 

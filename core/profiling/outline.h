@@ -19,7 +19,7 @@ struct Outline {
 };
 
 /// Between measured cells deviations are interpolated along the line; so are gaps up to gap_m, which are marked
-/// interpolated; longer gaps stay unseen.
+/// interpolated; gaps that are longer, along the line or straight between their measured ends, stay unseen.
 Outline outline_of(const std::vector<MapCell>& row, const ProfileStretch& stretch, double step_q_m, double gap_m);
 
 /// The outline as a polygon for a line at an offset: where nothing was seen it runs on that line.

@@ -179,6 +179,24 @@ TEST(Section, AGapAtACornerInventsNoUnderbreak) {
   }
 }
 
+TEST(Section, NoFanIsSpunAroundACornerFarOutside) {
+  const Profile square("square",
+                       {{{-2, 0}, {-2, 4}, 0}, {{-2, 4}, {2, 4}, 0}, {{2, 4}, {2, 0}, 0}, {{2, 0}, {-2, 0}, 0}});
+  const ProfileStretch stretch(square);
+  std::vector<MapCell> row(stretch.columns(0.1));
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const ProfilePoint at = stretch.at((static_cast<double>(c) + 0.5) * 0.1);
+    const bool crown_or_right = at.normal.y() > 0.99 || at.normal.x() > 0.99;
+    row[c] = {crown_or_right ? 2.0F : 0.0F, 0.0F, 10, CellKind::measured};
+    if ((at.position - Eigen::Vector2d(2.0, 4.0)).norm() < 0.15) row[c] = MapCell{};
+  }
+  const Outline outline = outline_of(row, stretch, 0.1, 1.0);
+  const SectionAreas areas = section_areas(outline, stretch, 0.1, line_polygon(square, {"excavation", 0.0}));
+  EXPECT_LT(areas.overbreak_m2, 2.0 * 4.0 * 2.0 + 0.2);  // a fan would add pi square metres that nobody has seen
+  EXPECT_GT(areas.overbreak_m2, 2.0 * 4.0 * 2.0 - 1.5);
+  EXPECT_GT(outline.unseen_m, 0.1);
+}
+
 TEST(Map, ADuctInFrontOfTheRockIsLeftOutAndSaid) {
   const DesignTunnel design = sample_design(circle_profile());
   const auto duct = [](double, double angle) { return angle > 0.5 && angle < 0.65 ? -0.45 : 0.1; };
