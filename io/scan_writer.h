@@ -1,0 +1,43 @@
+#pragma once
+// A scan file being written from a stream of points.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/scan_stream.h"
+
+namespace adit::io {
+
+/// What a writer must know of a scan before its first point: headers stand before the points. A first pass over the
+/// source gathers it (FactsSink).
+struct ScanFacts {
+  ScanHeader header;
+  std::uint64_t points = 0;  ///< exactly as many as will be handed out
+  BoundingBox box;           ///< of the points, file coordinates
+  bool coordinates_are_float32 = true;  ///< every coordinate is a float32 to the last bit
+  float least_intensity = 0.0F;
+  float greatest_intensity = 0.0F;
+  bool whole_intensities = true;
+  std::uint32_t rows = 0;  ///< of the raster, one more than the largest row; 0 without a grid
+  std::uint32_t columns = 0;
+};
+
+/// Gathers the facts of every scan handed to it.
+class FactsSink : public ScanSink {
+ public:
+  bool begin(const ScanHeader& scan) override;
+  void take(PointBlock& block) override;
+  void end(std::uint64_t no_returns) override;
+
+  std::vector<ScanFacts> scans;
+};
+
+/// Takes the same scans again, in the same order, and writes them. Destroyed without commit() it leaves nothing.
+class ScanWriter : public ScanSink {
+ public:
+  /// Makes the file durable and gives it its name.
+  virtual void commit() = 0;
+};
+
+}  // namespace adit::io
