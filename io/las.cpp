@@ -1,8 +1,8 @@
 #include "io/las.h"
 
 #include "io/bytes.h"
-#include "io/cloud_builder.h"
 #include "io/las_header.h"
+#include "io/point_stream.h"
 
 namespace adit::io {
 namespace {
@@ -10,7 +10,10 @@ namespace {
 constexpr std::uint64_t points_between_checks = 8192;
 
 Attributes attributes_of(const LasHeader& header) {
-  return {true, las_point_format(header.point_format).colour_offset.has_value(), false};
+  Attributes attributes;
+  attributes.intensity = true;
+  attributes.colour = las_point_format(header.point_format).colour_offset.has_value();
+  return attributes;
 }
 
 /// Colours should fill 16 bits, but many files hold plain bytes: then no value is over 255.
@@ -32,14 +35,15 @@ bool is_las(std::string_view beginning) {
   return beginning.starts_with("LASF");
 }
 
-ScanData read_las(const std::filesystem::path& path, const ReadOptions& options, Progress& progress) {
+void stream_las(const std::filesystem::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
   const InputFile file(path);
   const LasHeader header = read_las_header(file);
   const Attributes attributes = attributes_of(header);
   const std::uint16_t colour_offset = las_point_format(header.point_format).colour_offset.value_or(0);
+  PointStream out({path.stem().string(), file.name(), attributes, std::nullopt, header.points, header.box}, options,
+                  NanMeans::invalid, sink);
+  if (!out.wanted()) return;
   const int shift = attributes.colour && colours_fill_16_bits(file, header, progress) ? 8 : 0;
-  CloudBuilder builder(attributes, options);
-  builder.expect(header.points);
   ByteCursor cursor(file, header.points_offset, file.size());
   FilePoint point;
   for (std::uint64_t i = 0; i < header.points; ++i) {
@@ -53,9 +57,9 @@ ScanData read_las(const std::filesystem::path& path, const ReadOptions& options,
     if (attributes.colour)
       for (std::size_t c = 0; c < 3; ++c)
         point.colour[c] = static_cast<std::uint8_t>(little<std::uint16_t>(record + colour_offset + 2 * c) >> shift);
-    builder.add(point, [&] { return file.name() + ": point " + std::to_string(i + 1); });
+    out.add(point, [&] { return file.name() + ": point " + std::to_string(i + 1); });
   }
-  return builder.finished(path.stem().string(), file.name(), progress);
+  out.end();
 }
 
 ScanFileSummary summarise_las(const std::filesystem::path& path) {

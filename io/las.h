@@ -6,6 +6,7 @@
 
 #include "core/foundation/progress.h"
 #include "io/scan_formats.h"
+#include "io/scan_stream.h"
 
 namespace adit::io {
 
@@ -13,8 +14,8 @@ namespace adit::io {
 bool is_las(std::string_view beginning);
 
 /// Point formats 0 to 10: coordinates, intensity (0 .. 65535) and colour. Compressed points are refused by name, and so
-/// is a file that holds fewer or more points than its header says. Errors as read_scans.
-ScanData read_las(const std::filesystem::path& file, const ReadOptions& options, Progress& progress);
+/// is a file that holds fewer or more points than its header says. Errors as stream_scans.
+void stream_las(const std::filesystem::path& file, const ReadOptions& options, ScanSink& sink, Progress& progress);
 
 /// From the header alone, with its counts checked against the file's size.
 ScanFileSummary summarise_las(const std::filesystem::path& file);

@@ -1,11 +1,13 @@
 #include "io/pcd.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "core/foundation/error.h"
 #include "io/bytes.h"
+#include "io/lzf_stream.h"
 #include "io/pcd_header.h"
-#include "io/pcd_pcl.h"
+#include "io/point_stream.h"
 #include "io/text_place.h"
 
 namespace adit::io {
@@ -59,21 +61,59 @@ void put(FilePoint& point, PcdTarget target, double value) {
   }
 }
 
-void read_records(const InputFile& file, const PcdHeader& header, CloudBuilder& builder, const Progress& progress) {
-  const std::vector<std::uint8_t> records = pcd_records(file, header);
+void put_field(FilePoint& point, const PcdField& field, const std::byte* from) {
+  if (field.target == PcdTarget::packed_colour)
+    put_colour(point, little<std::uint32_t>(from));
+  else
+    put(point, field.target, stored_value(field, from));
+}
+
+std::vector<PcdField> wanted_fields(const PcdHeader& header) {
   std::vector<PcdField> wanted = header.fields;
   std::erase_if(wanted, [](const PcdField& field) { return field.target == PcdTarget::none; });
+  return wanted;
+}
+
+void read_records(const InputFile& file, const PcdHeader& header, PointStream& out, const Progress& progress) {
+  const std::vector<PcdField> wanted = wanted_fields(header);
+  ByteCursor cursor(file, header.body_offset, file.size());
   FilePoint point;
   for (std::uint64_t i = 0; i < header.points; ++i) {
     if (i % points_between_checks == 0) progress.step(i, header.points);
-    const auto* record = reinterpret_cast<const std::byte*>(records.data() + i * header.point_bytes);
-    for (const PcdField& field : wanted) {
-      if (field.target == PcdTarget::packed_colour)
-        put_colour(point, little<std::uint32_t>(record + field.offset));
-      else
-        put(point, field.target, stored_value(field, record + field.offset));
+    const std::byte* record = cursor.take(static_cast<std::size_t>(header.point_bytes));
+    for (const PcdField& field : wanted) put_field(point, field, record + field.offset);
+    out.add(point, [&] { return file.name() + ": point " + std::to_string(i + 1); });
+  }
+}
+
+LzfStream pcd_body(const InputFile& file, const PcdHeader& header) {
+  const auto packed = file.read(header.body_offset, 4, "the sizes of the compressed points");
+  return {file, header.body_offset + 8, header.body_offset + 8 + little<std::uint32_t>(packed.data())};
+}
+
+/// A compressed body holds all x, then all y, and so on: every wanted field is unpacked by a stream of its own.
+void read_columns(const InputFile& file, const PcdHeader& header, PointStream& out, const Progress& progress) {
+  for (const PcdField& field : header.fields)
+    if (field.name == "_") throw Error("a compressed file with padding fields (_)", file.name(), "export it as binary");
+  const std::vector<PcdField> wanted = wanted_fields(header);
+  std::vector<LzfStream> streams;
+  for (const PcdField& field : wanted) {
+    streams.push_back(pcd_body(file, header));
+    streams.back().skip(field.offset * header.points, progress);
+  }
+  std::vector<std::byte> values;
+  std::vector<FilePoint> points;
+  for (std::uint64_t done = 0; done < header.points; done += points.size()) {
+    progress.step(done, header.points);
+    points.assign(static_cast<std::size_t>(std::min(points_between_checks, header.points - done)), FilePoint());
+    for (std::size_t f = 0; f < wanted.size(); ++f) {
+      const auto width = static_cast<std::size_t>(wanted[f].size * wanted[f].count);
+      values.resize(width * points.size());
+      streams[f].read(values);
+      for (std::size_t i = 0; i < points.size(); ++i) put_field(points[i], wanted[f], values.data() + i * width);
     }
-    builder.add(point, [&] { return file.name() + ": point " + std::to_string(i + 1); });
+    for (std::size_t i = 0; i < points.size(); ++i)
+      out.add(points[i], [&] { return file.name() + ": point " + std::to_string(done + i + 1); });
   }
 }
 
@@ -85,7 +125,7 @@ void put_text_colour(FilePoint& point, const PcdField& field, double value) {
     put_colour(point, static_cast<std::uint32_t>(static_cast<std::int64_t>(value)));
 }
 
-void read_text(const InputFile& file, const PcdHeader& header, CloudBuilder& builder, const Progress& progress) {
+void read_text(const InputFile& file, const PcdHeader& header, PointStream& out, const Progress& progress) {
   LineReader lines(file, header.body_offset, header.body_line);
   FilePoint point;
   for (std::uint64_t i = 0; i < header.points; ++i) {
@@ -108,7 +148,7 @@ void read_text(const InputFile& file, const PcdHeader& header, CloudBuilder& bui
         put(point, field.target, value);
       next += field.count;
     }
-    builder.add(point, [&] { return lines.place(); });
+    out.add(point, [&] { return lines.place(); });
   }
   if (lines.next_with_text())
     lines.fail("there are more points than the header says", "the header is damaged; export the file again");
@@ -121,19 +161,20 @@ bool is_pcd(std::string_view beginning) {
          beginning.starts_with("VERSION .7\n");
 }
 
-ScanData read_pcd(const std::filesystem::path& path, const ReadOptions& options, Progress& progress) {
+void stream_pcd(const std::filesystem::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
   const InputFile file(path);
   const PcdHeader header = read_pcd_header(file);
   const bool organised = header.height > 1;
-  CloudBuilder builder(pcd_attributes(header), options, organised ? NanMeans::no_return : NanMeans::no_return_if_all);
-  builder.expect(header.points);
+  PointStream out({path.stem().string(), file.name(), pcd_attributes(header), header.viewpoint, header.points, {}},
+                  options, organised ? NanMeans::no_return : NanMeans::no_return_if_all, sink);
+  if (!out.wanted()) return;
   if (header.encoding == PcdEncoding::ascii)
-    read_text(file, header, builder, progress);
+    read_text(file, header, out, progress);
+  else if (header.encoding == PcdEncoding::binary)
+    read_records(file, header, out, progress);
   else
-    read_records(file, header, builder, progress);
-  ScanData scan = builder.finished(path.stem().string(), file.name(), progress);
-  scan.file_pose = header.viewpoint;
-  return scan;
+    read_columns(file, header, out, progress);
+  out.end();
 }
 
 ScanFileSummary summarise_pcd(const std::filesystem::path& path) {

@@ -6,6 +6,7 @@
 
 #include "core/foundation/progress.h"
 #include "io/scan_formats.h"
+#include "io/scan_stream.h"
 
 namespace adit::io {
 
@@ -14,8 +15,8 @@ bool is_pcd(std::string_view beginning);
 
 /// x y z of any type; intensity, rgb or rgba and normals when present. A VIEWPOINT other than the identity becomes
 /// file_pose. NaN in an organised cloud (HEIGHT over 1), or in all of x y z, is a place without a return. Errors as
-/// read_scans.
-ScanData read_pcd(const std::filesystem::path& file, const ReadOptions& options, Progress& progress);
+/// stream_scans.
+void stream_pcd(const std::filesystem::path& file, const ReadOptions& options, ScanSink& sink, Progress& progress);
 
 /// From the header alone, with its counts checked against the file's size.
 ScanFileSummary summarise_pcd(const std::filesystem::path& file);

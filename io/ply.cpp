@@ -6,6 +6,7 @@
 #include "core/foundation/error.h"
 #include "io/bytes.h"
 #include "io/ply_header.h"
+#include "io/point_stream.h"
 #include "io/text_place.h"
 
 namespace adit::io {
@@ -114,7 +115,7 @@ void read_row_with_lists(const InputFile& file, std::endian order, const std::ve
   }
 }
 
-void read_binary(const InputFile& file, const PlyHeader& header, CloudBuilder& builder, const Progress& progress) {
+void read_binary(const InputFile& file, const PlyHeader& header, PointStream& out, const Progress& progress) {
   const PlyElement& vertex = header.elements[header.vertex];
   std::vector<Column> columns = columns_of(vertex);
   const auto row_bytes = static_cast<std::size_t>(vertex.row_bytes());
@@ -133,7 +134,7 @@ void read_binary(const InputFile& file, const PlyHeader& header, CloudBuilder& b
       for (const Column& column : columns)
         put(point, column.target, column.type, ply_value(column.type, header.order, row + column.offset));
     }
-    builder.add(point, [&] { return file.at_byte(at) + " (point " + std::to_string(i + 1) + ")"; });
+    out.add(point, [&] { return file.at_byte(at) + " (point " + std::to_string(i + 1) + ")"; });
   }
 }
 
@@ -160,7 +161,7 @@ void read_text_row(LineReader& lines, const std::vector<Column>& columns, FilePo
   if (next != fields.size()) lines.fail("the line holds other values than the header says", "export the file again");
 }
 
-void read_text(const InputFile& file, const PlyHeader& header, CloudBuilder& builder, const Progress& progress) {
+void read_text(const InputFile& file, const PlyHeader& header, PointStream& out, const Progress& progress) {
   LineReader lines(file, header.body_offset, header.body_line);
   for (const PlyElement& element : header.elements) {
     const bool is_vertex = &element == &header.elements[header.vertex];
@@ -171,7 +172,7 @@ void read_text(const InputFile& file, const PlyHeader& header, CloudBuilder& bui
       next_row(lines, std::to_string(element.count) + " rows of " + element.name);
       if (!is_vertex) continue;
       read_text_row(lines, columns, point);
-      builder.add(point, [&] { return lines.place(); });
+      out.add(point, [&] { return lines.place(); });
     }
   }
   if (lines.next_with_text())
@@ -184,17 +185,18 @@ bool is_ply(std::string_view beginning) {
   return beginning.starts_with("ply\n") || beginning.starts_with("ply\r") || beginning.starts_with("ply ");
 }
 
-ScanData read_ply(const std::filesystem::path& path, const ReadOptions& options, Progress& progress) {
+void stream_ply(const std::filesystem::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
   const InputFile file(path);
   const PlyHeader header = read_ply_header(file);
   const PlyElement& vertex = header.elements[header.vertex];
-  CloudBuilder builder(ply_attributes(vertex), options);
-  builder.expect(vertex.count);
+  PointStream out({path.stem().string(), file.name(), ply_attributes(vertex), std::nullopt, vertex.count, {}}, options,
+                  NanMeans::invalid, sink);
+  if (!out.wanted()) return;
   if (header.ascii)
-    read_text(file, header, builder, progress);
+    read_text(file, header, out, progress);
   else
-    read_binary(file, header, builder, progress);
-  return builder.finished(path.stem().string(), file.name(), progress);
+    read_binary(file, header, out, progress);
+  out.end();
 }
 
 ScanFileSummary summarise_ply(const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 
 #include "core/foundation/progress.h"
 #include "io/scan_formats.h"
+#include "io/scan_stream.h"
 
 namespace adit::io {
 
@@ -14,8 +15,8 @@ namespace adit::io {
 bool is_ply(std::string_view beginning);
 
 /// The element "vertex": x y z of any type; intensity (also scalar_intensity, reflectance), red green blue and nx ny nz
-/// when present. Every other element and property is passed over. Errors as read_scans.
-ScanData read_ply(const std::filesystem::path& file, const ReadOptions& options, Progress& progress);
+/// when present. Every other element and property is passed over. Errors as stream_scans.
+void stream_ply(const std::filesystem::path& file, const ReadOptions& options, ScanSink& sink, Progress& progress);
 
 /// From the header alone, with its counts checked against the file's size.
 ScanFileSummary summarise_ply(const std::filesystem::path& file);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/bytes.h"
-#include "io/cloud_builder.h"
+#include "io/scan_stream.h"
 
 namespace adit::io {
 

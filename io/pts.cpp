@@ -1,8 +1,9 @@
 #include "io/pts.h"
 
+#include "core/foundation/error.h"
 #include "io/atomic_file.h"
-#include "io/cloud_builder.h"
 #include "io/outgoing_scan.h"
+#include "io/point_stream.h"
 #include "io/text_line.h"
 #include "io/text_place.h"
 
@@ -16,7 +17,7 @@ constexpr int decimals = 5;                    // a hundredth of a millimetre
 Attributes attributes_of(const LineReader& lines, std::size_t values) {
   if (values != 3 && values != 4 && values != 6 && values != 7)
     lines.fail("a point of " + std::to_string(values) + " values", "write x y z, then intensity, then red green blue");
-  return {values == 4 || values == 7, values >= 6, false};
+  return {values == 4 || values == 7, values >= 6, false, false};
 }
 
 void take(const LineReader& lines, const std::vector<Field>& fields, FilePoint& point) {
@@ -36,47 +37,43 @@ const std::vector<Field>& next_point(LineReader& lines, std::uint64_t done, std:
 }
 
 /// The points below the count on the present line.
-ScanData read_block(LineReader& lines, const std::string& name, const ReadOptions& options, const Progress& progress) {
+void stream_block(LineReader& lines, const std::string& name, const ReadOptions& options, ScanSink& sink,
+                  const Progress& progress) {
   const std::vector<Field>& first = lines.fields_between_blanks();
   if (first.size() != 1)
     lines.fail("the number of points is needed alone on a line", "put it there, or name a file without it .xyz");
   const std::uint64_t count = lines.count(first[0]);
   lines.file().expect_records(lines.position(), count, least_line_bytes, "points");
   const std::string where = lines.place();
-  std::size_t values = 0;
-  CloudBuilder builder({}, options);
+  if (count == 0) throw Error("the scan holds no points", where, "export the scan again with its points");
+  const std::size_t values = next_point(lines, 0, count).size();
+  PointStream out({name, where, attributes_of(lines, values), std::nullopt, count, {}}, options, NanMeans::invalid,
+                  sink);
   FilePoint point;
   for (std::uint64_t i = 0; i < count; ++i) {
     if (i % points_between_checks == 0) progress.step(lines.position(), lines.file().size());
-    const std::vector<Field>& fields = next_point(lines, i, count);
-    if (i == 0) {
-      values = fields.size();
-      builder = CloudBuilder(attributes_of(lines, values), options);
-      builder.expect(count);
-    }
+    const std::vector<Field>& fields = i == 0 ? lines.fields_between_blanks() : next_point(lines, i, count);
     if (fields.size() != values)
       lines.fail("the line has " + std::to_string(fields.size()) + " values, the first one " + std::to_string(values),
                  "export the file again");
+    if (!out.wanted()) continue;
     take(lines, fields, point);
-    builder.add(point, [&] { return lines.place(); });
+    out.add(point, [&] { return lines.place(); });
   }
-  return builder.finished(name, where, progress);
+  out.end();
 }
 
 }  // namespace
 
-std::vector<ScanData> read_pts(const std::filesystem::path& path, const ReadOptions& options, Progress& progress) {
+void stream_pts(const std::filesystem::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
   LineReader lines(path);
-  std::vector<ScanData> scans;
+  int scans = 0;
   while (lines.next_with_text()) {
-    if (!scans.empty() && lines.fields_between_blanks().size() != 1)
+    if (scans > 0 && lines.fields_between_blanks().size() != 1)
       lines.fail("there are more points than the number above them says", "correct that number");
-    scans.push_back(
-        read_block(lines, path.stem().string() + "-" + std::to_string(scans.size() + 1), options, progress));
+    stream_block(lines, name_of_scan(path, ++scans), options, sink, progress);
   }
-  if (scans.empty()) lines.fail("the file holds no points", "export the scan again with its points");
-  if (scans.size() == 1) scans[0].name = path.stem().string();
-  return scans;
+  if (scans == 0) lines.fail("the file holds no points", "export the scan again with its points");
 }
 
 void write_pts(const std::filesystem::path& path, const ScanData& scan_data, const WriteOptions& options,

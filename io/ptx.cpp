@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "io/cloud_builder.h"
+#include "core/foundation/error.h"
+#include "io/point_stream.h"
 #include "io/text_place.h"
 
 namespace adit::io {
@@ -60,7 +61,7 @@ std::optional<Pose> pose_of(LineReader& lines) {
 Attributes attributes_of(const LineReader& lines, std::size_t values) {
   if (values != 3 && values != 4 && values != 7)
     lines.fail("a point of " + std::to_string(values) + " values", "write x y z intensity, then red green blue");
-  return {values >= 4, values == 7, false};
+  return {values >= 4, values == 7, false, true};
 }
 
 void take(const LineReader& lines, const std::vector<Field>& fields, FilePoint& point) {
@@ -71,59 +72,70 @@ void take(const LineReader& lines, const std::vector<Field>& fields, FilePoint& 
     for (std::size_t c = 0; c < 3; ++c) point.colour[c] = lines.byte(fields[4 + c]);
 }
 
-/// The `count` lines of a grid.
-ScanData read_grid(LineReader& lines, std::uint64_t count, const std::string& name, const ReadOptions& options,
-                   const Progress& progress) {
-  const std::string where = lines.place();
-  std::size_t values = 0;
-  CloudBuilder builder({}, options);
+struct Grid {
+  std::uint64_t columns = 0;
+  std::uint64_t rows = 0;
+  std::uint64_t places() const { return columns * rows; }
+};
+
+const std::vector<Field>& next_place(LineReader& lines, std::uint64_t done, const Grid& grid) {
+  if (!lines.next_with_text())
+    lines.fail(
+        "the header says " + std::to_string(grid.places()) + " points, the file ends after " + std::to_string(done),
+        "the file is cut short; copy or export it again");
+  return lines.fields_between_blanks();
+}
+
+/// The lines of a grid, column by column.
+void stream_grid(LineReader& lines, const Grid& grid, ScanHeader header, const ReadOptions& options, ScanSink& sink,
+                 const Progress& progress) {
+  const std::size_t values = next_place(lines, 0, grid).size();
+  header.attributes = attributes_of(lines, values);
+  PointStream out(std::move(header), options, NanMeans::invalid, sink);
   FilePoint point;
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::uint64_t i = 0; i < grid.places(); ++i) {
     if (i % points_between_checks == 0) progress.step(lines.position(), lines.file().size());
-    if (!lines.next_with_text())
-      lines.fail("the header says " + std::to_string(count) + " points, the file ends after " + std::to_string(i),
-                 "the file is cut short; copy or export it again");
-    const std::vector<Field>& fields = lines.fields_between_blanks();
-    if (i == 0) {
-      values = fields.size();
-      builder = CloudBuilder(attributes_of(lines, values), options);
-      builder.expect(count);
-    }
+    const std::vector<Field>& fields = i == 0 ? lines.fields_between_blanks() : next_place(lines, i, grid);
     if (fields.size() != values)
       lines.fail("the line has " + std::to_string(fields.size()) + " values, the first one " + std::to_string(values),
                  "export the file again");
+    if (!out.wanted()) continue;
     take(lines, fields, point);
+    point.grid = {static_cast<std::uint32_t>(i % grid.rows), static_cast<std::uint32_t>(i / grid.rows)};
     if (point.position.isZero(0.0))
-      builder.add_no_return();
+      out.add_no_return();
     else
-      builder.add(point, [&] { return lines.place(); });
+      out.add(point, [&] { return lines.place(); });
   }
-  return builder.finished(name, where, progress);
+  out.end();
 }
 
 /// One scan, its number of columns on the present line.
-ScanData read_scan(LineReader& lines, const std::string& name, const ReadOptions& options, const Progress& progress) {
-  const std::uint64_t columns = side(lines, "columns");
+void stream_scan(LineReader& lines, const std::string& name, const ReadOptions& options, ScanSink& sink,
+                 const Progress& progress) {
+  Grid grid;
+  grid.columns = side(lines, "columns");
   next_header_line(lines);
-  const std::uint64_t count = columns * side(lines, "rows");
+  grid.rows = side(lines, "rows");
   for (int i = 0; i < 4; ++i) header_numbers(lines, 3);  // position and axes, said again by the matrix
-  const std::optional<Pose> pose = pose_of(lines);
-  lines.file().expect_records(lines.position(), count, least_line_bytes, "points");
-  ScanData scan = read_grid(lines, count, name, options, progress);
-  scan.file_pose = pose;
-  return scan;
+  ScanHeader header;
+  header.name = name;
+  header.file_pose = pose_of(lines);
+  header.where = lines.place();
+  header.points = grid.places();
+  lines.file().expect_records(lines.position(), grid.places(), least_line_bytes, "points");
+  if (grid.places() == 0)
+    throw Error("the scan holds no points", header.where, "export the scan again with its points");
+  stream_grid(lines, grid, std::move(header), options, sink, progress);
 }
 
 }  // namespace
 
-std::vector<ScanData> read_ptx(const std::filesystem::path& path, const ReadOptions& options, Progress& progress) {
+void stream_ptx(const std::filesystem::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
   LineReader lines(path);
-  std::vector<ScanData> scans;
-  while (lines.next_with_text())
-    scans.push_back(read_scan(lines, path.stem().string() + "-" + std::to_string(scans.size() + 1), options, progress));
-  if (scans.empty()) lines.fail("the file holds no points", "export the scan again with its points");
-  if (scans.size() == 1) scans[0].name = path.stem().string();
-  return scans;
+  int scans = 0;
+  while (lines.next_with_text()) stream_scan(lines, name_of_scan(path, ++scans), options, sink, progress);
+  if (scans == 0) lines.fail("the file holds no points", "export the scan again with its points");
 }
 
 }  // namespace adit::io

@@ -12,6 +12,7 @@
 #include "io/ply.h"
 #include "io/pts.h"
 #include "io/ptx.h"
+#include "io/scan_collector.h"
 #include "io/xyz.h"
 
 namespace adit::io {
@@ -20,10 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 using Scans = std::vector<ScanData>;
 
-Scans one(ScanData scan) {
-  Scans scans;
-  scans.push_back(std::move(scan));
-  return scans;
+using Stream = void (*)(const fs::path&, const ReadOptions&, ScanSink&, Progress&);
+
+Scans collected(Stream stream, const fs::path& file, const ReadOptions& options, Progress& progress) {
+  ScanCollector collector;
+  stream(file, options, collector, progress);
+  return std::move(collector.scans);
 }
 
 BoundingBox box_of(const ScanData& scan) {
@@ -62,7 +65,7 @@ ScanFileSummary summary_of(const std::string& format, const Scans& scans) {
 struct ScanFormat {
   std::vector<std::string> endings;
   bool (*begins)(std::string_view) = nullptr;
-  std::function<Scans(const fs::path&, const ReadOptions&, Progress&)> read;
+  Stream stream = nullptr;
   std::function<ScanFileSummary(const fs::path&, Progress&)> summarise;
   std::function<void(const fs::path&, const Scans&, const WriteOptions&, Progress&)> write;
   bool holds_several_scans = false;
@@ -72,38 +75,38 @@ std::vector<ScanFormat> make_formats() {
   return {
       {{".ply"},
        is_ply,
-       [](auto& file, auto& options, auto& progress) { return one(read_ply(file, options, progress)); },
+       stream_ply,
        [](auto& file, auto& progress) {
-         return with_box(summarise_ply(file), read_ply(file, finite_points, progress));
+         return with_box(summarise_ply(file), collected(stream_ply, file, finite_points, progress)[0]);
        },
        [](auto& file, auto& scans, auto& options, auto& progress) { write_ply(file, scans[0], options, progress); }},
       {{".pcd"},
        is_pcd,
-       [](auto& file, auto& options, auto& progress) { return one(read_pcd(file, options, progress)); },
+       stream_pcd,
        [](auto& file, auto& progress) {
-         return with_box(summarise_pcd(file), read_pcd(file, finite_points, progress));
+         return with_box(summarise_pcd(file), collected(stream_pcd, file, finite_points, progress)[0]);
        },
        [](auto& file, auto& scans, auto& options, auto& progress) { write_pcd(file, scans[0], options, progress); }},
       {{".las"},
        is_las,
-       [](auto& file, auto& options, auto& progress) { return one(read_las(file, options, progress)); },
+       stream_las,
        [](auto& file, auto&) { return summarise_las(file); },
        [](auto& file, auto& scans, auto& options, auto& progress) { write_las(file, scans[0], options, progress); }},
       {{".pts"},
        nullptr,
-       read_pts,
-       [](auto& file, auto& progress) { return summary_of("PTS", read_pts(file, {}, progress)); },
+       stream_pts,
+       [](auto& file, auto& progress) { return summary_of("PTS", collected(stream_pts, file, {}, progress)); },
        [](auto& file, auto& scans, auto& options, auto& progress) { write_pts(file, scans[0], options, progress); }},
       {{".ptx"},
        nullptr,
-       read_ptx,
-       [](auto& file, auto& progress) { return summary_of("PTX", read_ptx(file, {}, progress)); },
+       stream_ptx,
+       [](auto& file, auto& progress) { return summary_of("PTX", collected(stream_ptx, file, {}, progress)); },
        write_ptx,
        true},
       {{".xyz", ".csv", ".txt"},
        nullptr,
-       [](auto& file, auto& options, auto& progress) { return one(read_xyz(file, options, progress)); },
-       [](auto& file, auto& progress) { return summary_of("XYZ text", one(read_xyz(file, {}, progress))); },
+       stream_xyz,
+       [](auto& file, auto& progress) { return summary_of("XYZ text", collected(stream_xyz, file, {}, progress)); },
        [](auto& file, auto& scans, auto& options, auto& progress) { write_xyz(file, scans[0], options, progress); }},
   };
 }
@@ -161,8 +164,12 @@ bool is_scan_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored) && format_by_beginning(InputFile(path)) != nullptr;
 }
 
+void stream_scans(const fs::path& file, const ReadOptions& options, ScanSink& sink, Progress& progress) {
+  format_of(file).stream(file, options, sink, progress);
+}
+
 std::vector<ScanData> read_scans(const fs::path& file, const ReadOptions& options, Progress& progress) {
-  return format_of(file).read(file, options, progress);
+  return collected(format_of(file).stream, file, options, progress);
 }
 
 ScanFileSummary summarise_scan_file(const fs::path& file, Progress& progress) {

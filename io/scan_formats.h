@@ -13,10 +13,11 @@
 #include "core/geometry/bounding_box.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/pose.h"
+#include "io/scan_stream.h"
 
 namespace adit::io {
 
-/// One scan as read from a file. File coordinates = cloud point + offset (offset is zero unless the coordinates are too
+/// One scan in memory. File coordinates = cloud point + offset (offset is zero unless the coordinates are too
 /// large for float32: then a whole-metre shift). file_pose is what the file itself says of the scanner (PTX, PCD
 /// viewpoint), site-from-file coordinates.
 struct ScanData {
@@ -48,9 +49,12 @@ struct ReadOptions {
 /// True when the ending or the first bytes name a scan format this build knows.
 bool is_scan_file(const std::filesystem::path& file);
 
-/// All scans of a file (most formats hold one). Throws Error with file and place (record, line or byte) for anything
-/// broken: truncated, counts that the file cannot hold, text where a number belongs, NaN or infinite coordinates, no
-/// points at all. Nothing is allocated before the file's size confirms it.
+/// Streams all scans of a file (most formats hold one) into a sink; memory is bounded by a block of points. Throws
+/// Error with file and place (record, line or byte) for anything broken: truncated, counts that the file cannot hold,
+/// text where a number belongs, NaN or infinite coordinates, no points at all.
+void stream_scans(const std::filesystem::path& file, const ReadOptions& options, ScanSink& sink, Progress& progress);
+
+/// The same into memory, for files known to be small. Errors as stream_scans.
 std::vector<ScanData> read_scans(const std::filesystem::path& file, const ReadOptions& options, Progress& progress);
 
 /// What a file holds and where its points lie: from the header alone where it says so (LAS), else read through.

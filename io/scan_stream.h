@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,9 @@ struct ScanHeader {
   std::uint64_t points = 0;  ///< as the header says, places without a return among them; 0: it does not say
   BoundingBox box;           ///< as the header says, file coordinates; empty: it does not say
 };
+
+/// Name of the n-th scan (from 1) of a file whose scans have none: that of the file, then with -2, -3, ...
+std::string name_of_scan(const std::filesystem::path& file, int n);
 
 /// Row and column of a point in the scanner's raster.
 struct GridPlace {

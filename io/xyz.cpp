@@ -2,6 +2,7 @@
 
 #include "io/atomic_file.h"
 #include "io/outgoing_scan.h"
+#include "io/point_stream.h"
 #include "io/text_line.h"
 #include "io/xyz_columns.h"
 
@@ -98,10 +99,12 @@ void expect_columns(const LineReader& lines, std::size_t found, std::size_t want
 
 }  // namespace
 
-ScanData read_xyz(const std::filesystem::path& path, const ReadOptions& options, Progress& progress) {
+void stream_xyz(const std::filesystem::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
   LineReader lines(path);
   const Layout layout = sniffed_layout(lines);
-  CloudBuilder builder(layout.columns.attributes(), options);
+  PointStream out({path.stem().string(), lines.file().name(), layout.columns.attributes(), std::nullopt, 0, {}},
+                  options, NanMeans::invalid, sink);
+  if (!out.wanted()) return;
   FilePoint point;
   std::uint64_t i = 0;
   do {
@@ -112,9 +115,9 @@ ScanData read_xyz(const std::filesystem::path& path, const ReadOptions& options,
     while (count > 0 && fields[count - 1].text.empty()) --count;
     expect_columns(lines, count, layout.columns.count);
     take(lines, fields, layout.columns, point);
-    builder.add(point, [&] { return lines.place(); });
+    out.add(point, [&] { return lines.place(); });
   } while (next_point_line(lines));
-  return builder.finished(path.stem().string(), lines.file().name(), progress);
+  out.end();
 }
 
 void write_xyz(const std::filesystem::path& path, const ScanData& scan_data, const WriteOptions& options,

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/cloud_builder.h"
+#include "io/scan_stream.h"
 #include "io/text_place.h"
 
 namespace adit::io {

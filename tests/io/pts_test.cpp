@@ -33,9 +33,9 @@ TEST(Pts, SiteCoordinatesKeepTenthOfMillimetre) {
 TEST(Pts, EachCountBeginsAScan) {
   const tests::TemporaryFolder folder;
   Progress progress;
-  const auto scans = read_pts(folder.write("two.pts", "1\n1 2 3\n\n2\r\n4 5 6 -7\r\n7 8 9 -8\r\n"), {}, progress);
+  const auto scans = read_scans(folder.write("two.pts", "1\n1 2 3\n\n2\r\n4 5 6 -7\r\n7 8 9 -8\r\n"), {}, progress);
   ASSERT_EQ(scans.size(), 2U);
-  EXPECT_EQ(scans[0].name, "two-1");
+  EXPECT_EQ(scans[0].name, "two");
   EXPECT_EQ(scans[1].cloud.size(), 2U);
   EXPECT_EQ(scans[1].cloud.intensity[1], -8.0F);
 }

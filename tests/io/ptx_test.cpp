@@ -11,7 +11,7 @@ const std::string unit_header = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0
 
 std::vector<ScanData> read_all(const std::filesystem::path& file) {
   Progress progress;
-  return read_ptx(file, {}, progress);
+  return read_scans(file, {}, progress);
 }
 
 TEST(Ptx, RoundTripOfSeveralScans) {
@@ -26,7 +26,7 @@ TEST(Ptx, RoundTripOfSeveralScans) {
   write_scans(folder / "s.ptx", scans, {}, progress);
   const std::vector<ScanData> read = read_all(folder / "s.ptx");
   ASSERT_EQ(read.size(), 2U);
-  EXPECT_EQ(read[0].name, "s-1");
+  EXPECT_EQ(read[0].name, "s");
   EXPECT_EQ(read[0].cloud.points, scans[0].cloud.points);
   EXPECT_EQ(read[0].cloud.intensity, scans[0].cloud.intensity);
   EXPECT_EQ(read[0].cloud.colour, scans[0].cloud.colour);
