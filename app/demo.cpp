@@ -183,7 +183,7 @@ Job demo_job(const Demo& demo, const std::vector<Pose>& poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string name = "S" + std::to_string(i + 1);
     const Pose guess = guessed_pose(demo, poses[i], static_cast<int>(i));
-    job.scans.push_back({name, "scans/" + name + ".ply", guess.translation() + demo.origin, yaw_pitch_roll(guess)});
+    job.scans.push_back({name, "scans/" + name + ".ply", 0, guess.translation() + demo.origin, yaw_pitch_roll(guess)});
   }
   if (demo.options.control) {
     job.control = "control.csv";

@@ -1,6 +1,7 @@
 #pragma once
 // All that a run holds in memory: the job, what its files say, and what the steps have made so far.
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -24,6 +25,8 @@ struct JobState {
   std::filesystem::path file;    ///< job.json itself
   std::filesystem::path folder;  ///< of job.json
   std::filesystem::path out;     ///< of everything derived
+
+  std::uint64_t memory_bytes = std::uint64_t{4} << 30;  ///< budget for points on their way
 
   // What the input files say (site coordinates).
   std::map<std::string, std::string> input_sha256;  ///< by the name in job.json

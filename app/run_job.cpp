@@ -27,6 +27,13 @@ using Clock = std::chrono::steady_clock;
 constexpr double opening_share = 0.02;
 constexpr double steps_share = 0.97;
 
+std::uint64_t half_of_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES);
+  const long page = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page <= 0) return std::uint64_t{4} << 30;
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) / 2;
+}
+
 /// Holds out/.lock while a run writes there.
 class FolderLock {
  public:
@@ -139,6 +146,7 @@ std::shared_ptr<JobState> run_job(const fs::path& job_file, const RunOptions& op
   Progress opening = progress.part(opening_share, "reading the job");
   auto state = std::make_shared<JobState>(open_job(job_file, options.out, opening));
   state->results.version = version;
+  state->memory_bytes = options.memory_bytes > 0 ? options.memory_bytes : half_of_memory();
   std::optional<FolderLock> lock;
   if (!options.only_take_up) {
     create_folder(state->out);

@@ -1,6 +1,7 @@
 #pragma once
 // One function runs a job: for the command line, for the window and for the tests.
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,9 +14,10 @@
 namespace adit::app {
 
 struct RunOptions {
-  std::filesystem::path out;  ///< everything derived; empty: "out" in the job's folder
-  std::string last_step;      ///< the last to run; later ones are taken up if they still hold; empty: all
-  bool only_take_up = false;  ///< run nothing: take up what earlier runs left, as far as it is up to date
+  std::filesystem::path out;       ///< everything derived; empty: "out" in the job's folder
+  std::string last_step;           ///< the last to run; later ones are taken up if they still hold; empty: all
+  bool only_take_up = false;       ///< run nothing: take up what earlier runs left, as far as it is up to date
+  std::uint64_t memory_bytes = 0;  ///< budget for points on their way; 0: half of the machine's memory
   StepContext context;
 };
 

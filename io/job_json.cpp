@@ -31,11 +31,17 @@ Eigen::Vector3d vector3(const JsonPlace& place) {
 }
 
 JobScan read_scan(const JsonPlace& place, const fs::path& folder) {
-  place.only_keys({"name", "file", "pose"});
+  place.only_keys({"name", "file", "scan", "pose"});
   JobScan scan;
   scan.name = place.at("name").text();
   if (scan.name.empty()) place.at("name").refuse("a scan needs a name", "write one, for instance S1");
   scan.file = existing_file(place.at("file"), folder);
+  if (place.has("scan")) {
+    const std::int64_t number = place.at("scan").whole_number();
+    if (number < 1 || number > 1000000)
+      place.at("scan").refuse("scans of a file are counted from 1", "write the number of the scan");
+    scan.number = static_cast<int>(number);
+  }
   if (!place.has("pose")) return scan;
   const JsonPlace pose = place.at("pose");
   pose.only_keys({"position", "yaw_pitch_roll_deg"});
@@ -175,7 +181,7 @@ Job read_job(const fs::path& file) {
   if (place.has("rounds")) job.rounds = read_rounds(place.at("rounds"));
   if (place.has("options")) {
     const JsonPlace options = place.at("options");
-    options.only_keys({"registration", "profiling", "surface"});
+    options.only_keys({"import", "registration", "profiling", "surface"});
     for_each_group(job.options, [&](const char* group, auto& members) {
       if (!options.has(group)) return;
       OptionsFromJson reader(options.at(group));
@@ -194,6 +200,7 @@ std::string job_text(const Job& job) {
   if (!job.surveyor.empty()) root["surveyor"] = job.surveyor;
   for (const JobScan& scan : job.scans) {
     nlohmann::ordered_json one{{"name", scan.name}, {"file", scan.file}};
+    if (scan.number > 0) one["scan"] = scan.number;
     if (scan.position) {
       one["pose"]["position"] = {scan.position->x(), scan.position->y(), scan.position->z()};
       one["pose"]["yaw_pitch_roll_deg"] = {deg_from_rad(scan.angles.yaw_rad), deg_from_rad(scan.angles.pitch_rad),

@@ -17,6 +17,8 @@ class MappedFile {
   MappedFile& operator=(const MappedFile&) = delete;
 
   std::span<const std::byte> bytes() const { return bytes_; }
+  /// Lets the pages that lie wholly within these bytes leave the program's memory; they come back when they are read.
+  void release(std::uint64_t offset, std::size_t count) const;
 
  private:
   std::span<const std::byte> bytes_;

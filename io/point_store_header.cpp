@@ -12,20 +12,19 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "a store holds numbers as memory does");
 
-// magic 8, version 4, flags 4, header bytes 8, points 8, no-returns 8, tiles 8, offset 24, pose 128, source 64, name
-// length 8
-constexpr char magic[] = {'A', 'D', 'I', 'T', 'P', 'N', 'T', 'S'};
-constexpr std::uint32_t version = 1;
-constexpr std::size_t fixed_bytes = 8 + 4 + 4 + 5 * 8 + 24 + 128 + 64;
-constexpr std::size_t row_bytes = 8 + 4 + 4 + 24 + 8 + 8;
+constexpr char mark[] = {'A', 'D', 'I', 'T', 'P', 'N', 'T', 'S'};
+constexpr std::uint32_t version = 2;
+constexpr std::size_t beginning_bytes = 16;  // mark, version, four bytes of zero
+// flags 4 + 4, points, no-returns, scan, tiles, name length 5 x 8, offset 24, pose 128, source 64
+constexpr std::size_t fixed_bytes = 8 + 5 * 8 + 24 + 128 + 64;
+// first point 8, count 4, origin 12, widths 5 + 3 of zero, box 24, checksums 16
+constexpr std::size_t row_bytes = 8 + 4 + 12 + 8 + 24 + 16;
+constexpr std::size_t end_bytes = 16;  // checksum, length of everything before it
 constexpr std::size_t longest_name = 4096;
 constexpr std::uint32_t flag_intensity = 1;
 constexpr std::uint32_t flag_colour = 2;
 constexpr std::uint32_t flag_pose = 4;
-
-std::size_t rounded_up_to_8(std::size_t bytes) {
-  return (bytes + 7) / 8 * 8;
-}
+constexpr std::uint32_t flag_float32 = 8;
 
 class Writer {
  public:
@@ -62,7 +61,7 @@ class Reader {
 };
 
 std::size_t size_of_header(std::size_t name, std::size_t tiles) {
-  return rounded_up_to_8(fixed_bytes + name) + tiles * row_bytes + 8;
+  return fixed_bytes + name + tiles * row_bytes;
 }
 
 std::uint64_t checksum_of(std::span<const std::byte> bytes) {
@@ -71,24 +70,51 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes) {
   return sum.value();
 }
 
+void put_row(Writer& writer, const StoredTile& tile) {
+  writer.put(tile.first_point);
+  writer.put(tile.code.count);
+  for (const std::int32_t c : tile.code.origin) writer.put(c);
+  for (const std::uint8_t width : tile.code.width) writer.put(width);
+  for (std::size_t i = tile_columns; i < 8; ++i) writer.put(std::uint8_t{0});
+  for (const float c : tile.box) writer.put(c);
+  writer.put(tile.overview_checksum);
+  writer.put(tile.checksum);
+}
+
+StoredTile row_of(Reader& reader) {
+  StoredTile tile;
+  tile.first_point = reader.get<std::uint64_t>();
+  tile.code.count = reader.get<std::uint32_t>();
+  for (std::int32_t& c : tile.code.origin) c = reader.get<std::int32_t>();
+  for (std::uint8_t& width : tile.code.width) width = reader.get<std::uint8_t>();
+  for (std::size_t i = tile_columns; i < 8; ++i) reader.get<std::uint8_t>();
+  for (float& c : tile.box) c = reader.get<float>();
+  tile.overview_checksum = reader.get<std::uint64_t>();
+  tile.checksum = reader.get<std::uint64_t>();
+  return tile;
+}
+
 bool is_sound(const StoredTile& tile, std::uint64_t points_before) {
-  if (tile.first_point != points_before || tile.count == 0 || tile.count > store_tile_points) return false;
+  const TileCode& code = tile.code;
+  if (tile.first_point != points_before || code.count == 0 || code.count > store_tile_points) return false;
+  if (*std::max_element(code.width.begin(), code.width.end()) > 32) return false;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!std::isfinite(tile.box[axis]) || !std::isfinite(tile.box[axis + 3]) || tile.box[axis] > tile.box[axis + 3])
       return false;
   return true;
 }
 
-/// The parts between magic and table; empty when they are out of range.
-std::optional<PointStoreHeader> parsed_fixed_part(Reader& reader, std::uint64_t& tiles, std::size_t file_bytes) {
+/// Everything before the table; empty when it is out of range.
+std::optional<PointStoreHeader> parsed_fixed_part(Reader& reader, std::uint64_t& tiles, std::size_t bytes) {
   PointStoreHeader header;
-  if (reader.get<std::uint32_t>() != version) return std::nullopt;
   const auto flags = reader.get<std::uint32_t>();
+  reader.get<std::uint32_t>();
   header.has_intensity = (flags & flag_intensity) != 0;
   header.has_colour = (flags & flag_colour) != 0;
-  const auto bytes = reader.get<std::uint64_t>();
+  header.keep = (flags & flag_float32) != 0 ? Keep::float32 : Keep::tenth_millimetre;
   header.points = reader.get<std::uint64_t>();
   header.no_returns = reader.get<std::uint64_t>();
+  header.source_scan = reader.get<std::uint64_t>();
   tiles = reader.get<std::uint64_t>();
   const auto name_bytes = reader.get<std::uint64_t>();
   for (double& c : header.offset) c = reader.get<double>();
@@ -96,11 +122,10 @@ std::optional<PointStoreHeader> parsed_fixed_part(Reader& reader, std::uint64_t&
   for (double& c : pose.reshaped()) c = reader.get<double>();
   header.source_sha256 = reader.text(64);
   header.source_sha256.resize(std::min(header.source_sha256.find('\0'), header.source_sha256.size()));
-  if (name_bytes > longest_name || tiles == 0 || tiles > file_bytes / row_bytes || bytes > file_bytes ||
+  if (name_bytes > longest_name || tiles == 0 || tiles > bytes / row_bytes ||
       bytes != size_of_header(name_bytes, tiles))
     return std::nullopt;
   header.name = reader.text(name_bytes);
-  reader.text(rounded_up_to_8(fixed_bytes + name_bytes) - fixed_bytes - name_bytes);
   if ((flags & flag_pose) != 0) {
     if (!is_rigid(pose)) return std::nullopt;
     header.file_pose = Pose(pose);
@@ -109,91 +134,83 @@ std::optional<PointStoreHeader> parsed_fixed_part(Reader& reader, std::uint64_t&
   return header;
 }
 
-}  // namespace
-
-TileLayout tile_layout(const PointStoreHeader& header, std::size_t count) {
-  TileLayout layout;
-  layout.intensity = 12 * count;
-  layout.colour = layout.intensity + (header.has_intensity ? 4 * count : 0);
-  layout.bytes = rounded_up_to_8(layout.colour + (header.has_colour ? 3 * count : 0));
-  return layout;
+/// The bytes of header and table; nothing unless their checksum holds.
+std::span<const std::byte> header_part(std::span<const std::byte> file) {
+  if (file.size() < beginning_bytes + fixed_bytes + row_bytes + end_bytes) return {};
+  const std::string beginning = store_beginning();
+  if (std::memcmp(file.data(), beginning.data(), beginning.size()) != 0) return {};
+  Reader end(file.last(end_bytes));
+  const auto checksum = end.get<std::uint64_t>();
+  const auto bytes = end.get<std::uint64_t>();
+  if (bytes < fixed_bytes || bytes > file.size() - beginning_bytes - end_bytes) return {};
+  const auto part = file.subspan(file.size() - end_bytes - bytes, bytes);
+  return checksum_of(part) == checksum ? part : std::span<const std::byte>();
 }
+
+}  // namespace
 
 std::size_t overview_points(std::size_t count) {
   return (count + 63) / 64;
 }
 
-std::uint64_t tile_checksum(const PointStoreHeader& header, std::span<const std::byte> tile, std::size_t count,
-                            std::size_t prefix) {
-  const TileLayout layout = tile_layout(header, count);
-  Checksum sum;
-  sum.add(tile.subspan(0, 12 * prefix));
-  if (header.has_intensity) sum.add(tile.subspan(layout.intensity, 4 * prefix));
-  if (header.has_colour) sum.add(tile.subspan(layout.colour, 3 * prefix));
-  return sum.value();
+std::string store_beginning() {
+  Writer writer;
+  writer.bytes.append(mark, sizeof mark);
+  writer.put(version);
+  writer.put(std::uint32_t{0});
+  return std::move(writer.bytes);
 }
 
-std::string header_bytes(const PointStoreHeader& header) {
+std::string store_end(const PointStoreHeader& header) {
   const std::string name = header.name.substr(0, longest_name);
   Writer writer;
-  writer.bytes.append(magic, sizeof magic);
-  writer.put(version);
   writer.put<std::uint32_t>((header.has_intensity ? flag_intensity : 0) | (header.has_colour ? flag_colour : 0) |
-                            (header.file_pose ? flag_pose : 0));
-  for (const std::uint64_t number : {std::uint64_t{size_of_header(name.size(), header.tiles.size())}, header.points,
-                                     header.no_returns, std::uint64_t{header.tiles.size()}, std::uint64_t{name.size()}})
+                            (header.file_pose ? flag_pose : 0) | (header.keep == Keep::float32 ? flag_float32 : 0));
+  writer.put(std::uint32_t{0});
+  for (const std::uint64_t number : {header.points, header.no_returns, header.source_scan,
+                                     std::uint64_t{header.tiles.size()}, std::uint64_t{name.size()}})
     writer.put(number);
   for (const double c : header.offset) writer.put(c);
   const Eigen::Matrix4d pose = header.file_pose.value_or(Pose::Identity()).matrix();
   for (const double c : pose.reshaped()) writer.put(c);
   writer.put_padded(header.source_sha256.substr(0, 64), 64);
-  writer.put_padded(name, rounded_up_to_8(fixed_bytes + name.size()) - fixed_bytes);
-  for (const StoredTile& tile : header.tiles) {
-    writer.put(tile.first_point);
-    writer.put(tile.count);
-    writer.put<std::uint32_t>(0);
-    for (const float c : tile.box) writer.put(c);
-    writer.put(tile.overview_checksum);
-    writer.put(tile.checksum);
-  }
+  writer.bytes += name;
+  for (const StoredTile& tile : header.tiles) put_row(writer, tile);
+  const std::uint64_t bytes = writer.bytes.size();
   writer.put(checksum_of(std::as_bytes(std::span(writer.bytes))));
+  writer.put(bytes);
   return std::move(writer.bytes);
 }
 
 std::uint64_t place_tiles(PointStoreHeader& header) {
-  std::uint64_t next = size_of_header(std::min(header.name.size(), longest_name), header.tiles.size());
+  std::uint64_t next = beginning_bytes;
   for (StoredTile& tile : header.tiles) {
     tile.byte_offset = next;
-    next += tile_layout(header, tile.count).bytes;
+    next += tile_bytes(tile.code);
   }
   return next;
 }
 
+bool is_store_of_other_version(std::span<const std::byte> file) {
+  const std::string beginning = store_beginning();
+  return file.size() >= beginning.size() && std::memcmp(file.data(), mark, sizeof mark) == 0 &&
+         std::memcmp(file.data(), beginning.data(), beginning.size()) != 0;
+}
+
 std::optional<PointStoreHeader> parsed_header(std::span<const std::byte> file) {
-  if (file.size() < fixed_bytes + 8 || std::memcmp(file.data(), magic, sizeof magic) != 0) return std::nullopt;
-  Reader reader(file);
-  reader.text(sizeof magic);
+  const auto part = header_part(file);
+  if (part.empty()) return std::nullopt;
+  Reader reader(part);
   std::uint64_t tiles = 0;
-  std::optional<PointStoreHeader> header = parsed_fixed_part(reader, tiles, file.size());
+  std::optional<PointStoreHeader> header = parsed_fixed_part(reader, tiles, part.size());
   if (!header) return std::nullopt;
-  const std::size_t bytes = size_of_header(header->name.size(), tiles);
-  std::uint64_t stored = 0;
-  std::memcpy(&stored, file.data() + bytes - 8, 8);
-  if (stored != checksum_of(file.first(bytes - 8))) return std::nullopt;
   std::uint64_t points = 0;
   for (std::uint64_t t = 0; t < tiles; ++t) {
-    StoredTile tile;
-    tile.first_point = reader.get<std::uint64_t>();
-    tile.count = reader.get<std::uint32_t>();
-    reader.get<std::uint32_t>();
-    for (float& c : tile.box) c = reader.get<float>();
-    tile.overview_checksum = reader.get<std::uint64_t>();
-    tile.checksum = reader.get<std::uint64_t>();
-    if (!is_sound(tile, points)) return std::nullopt;
-    points += tile.count;
-    header->tiles.push_back(tile);
+    header->tiles.push_back(row_of(reader));
+    if (!is_sound(header->tiles.back(), points)) return std::nullopt;
+    points += header->tiles.back().code.count;
   }
-  if (points != header->points || place_tiles(*header) != file.size()) return std::nullopt;
+  if (points != header->points || place_tiles(*header) != file.size() - end_bytes - part.size()) return std::nullopt;
   return header;
 }
 

@@ -21,7 +21,7 @@ render::SceneCloud cloud_of(const app::JobState& state, std::size_t scan, double
   cloud.colour = render::scan_colour(scan);
   for (std::size_t tile = 0; tile < store.tile_count(); ++tile) {
     const auto prefix = static_cast<std::size_t>(std::ceil(share * static_cast<double>(store.point_count(tile))));
-    for (const auto& p : store.read(tile, prefix).points)
+    for (const auto& p : store.positions(tile, prefix))
       if (!scanner_at_origin || static_cast<double>(p.norm()) <= most_range_m)
         cloud.points.push_back((pose * p.cast<double>()).cast<float>());
   }

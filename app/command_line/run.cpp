@@ -15,14 +15,20 @@ Action declare_run(CLI::App& command, const std::string& last_step) {
   struct Arguments {
     std::string job;
     std::string out;
+    std::uint64_t memory_bytes = 0;
   };
   auto arguments = std::make_shared<Arguments>();
   command.add_option("JOB", arguments->job, "job.json or its folder")->required()->check(some_name);
   command.add_option("--out", arguments->out, "folder for everything derived (out beside job.json)")->check(some_name);
+  command
+      .add_option("--memory", arguments->memory_bytes, "budget for points on their way, as 8GB (half of the machine's)")
+      ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::Range(std::uint64_t{1} << 28, std::uint64_t{1} << 50));
   return [arguments, last_step](const CommonOptions& common, Progress& progress) {
     RunOptions options;
     options.out = arguments->out;
     options.last_step = last_step;
+    options.memory_bytes = arguments->memory_bytes;
     options.context.make_gl_context = [] { return render::make_osmesa_context(); };
     const auto state = run_job(arguments->job, options, progress);
     const std::string text = common.json    ? io::results_text(state->results)

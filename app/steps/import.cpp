@@ -1,12 +1,19 @@
 // Scan files into point stores; the project origin.
 
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cstdio>
+#include <exception>
 
 #include "app/step.h"
-#include "core/cleaning/no_returns.h"
 #include "core/foundation/error.h"
+#include "core/geometry/point_cloud.h"
 #include "io/scan_formats.h"
+#include "io/store_writer.h"
 
 namespace adit::app {
 namespace {
@@ -19,25 +26,53 @@ std::filesystem::path store_file(const JobState& state, std::size_t scan) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "import 1";
+  std::string text = "import 2|" + options_text(state.job.options.import);
   for (const JobScan& scan : state.job.scans)
-    text += "|" + scan.name + "|" + scan.file + "|" + state.input_sha256.at(scan.file);
+    text +=
+        "|" + scan.name + "|" + scan.file + "|" + std::to_string(scan.number) + "|" + state.input_sha256.at(scan.file);
   text += "|" + state.job.control + "|" + state.job.alignment;
   return text;
 }
 
-io::ScanData only_scan(const JobState& state, const JobScan& scan, Progress& progress) {
-  std::vector<io::ScanData> scans = io::read_scans(state.folder / scan.file, {}, progress);
-  if (scans.size() != 1)
-    throw Error("the file holds " + std::to_string(scans.size()) + " scans; a job names one file for each scan",
-                (state.folder / scan.file).string(), "take them apart with adit convert --scan N");
-  return std::move(scans.front());
+io::StoreOptions store_options(const JobState& state, const JobScan& scan) {
+  io::StoreOptions options;
+  options.name = scan.name;
+  options.source_sha256 = state.input_sha256.at(scan.file);
+  options.scan = static_cast<std::uint64_t>(scan.number);
+  options.keep = state.job.options.import.keep == "float32" ? io::Keep::float32 : io::Keep::tenth_millimetre;
+  return options;
+}
+
+/// True when the store is what an import with these options would make.
+bool is_made_with(const io::PointStore& store, const io::StoreOptions& options) {
+  const io::PointStoreHeader& header = store.header();
+  return header.name == options.name && header.source_sha256 == options.source_sha256 && header.keep == options.keep &&
+         header.source_scan == std::max<std::uint64_t>(options.scan, 1);
+}
+
+/// An import that was cut short left whole stores behind: they need not be made again.
+bool is_made_already(const std::filesystem::path& file, const io::StoreOptions& options, const Progress& progress) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return false;
+  try {
+    const io::PointStore store(file);
+    if (!is_made_with(store, options)) return false;
+    store.expect_intact(progress);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 /// A scan in millimetres is hundreds of metres wide in every direction, and no tunnel is.
-void check_unit(const PointCloud& cloud, const std::string& file) {
+void check_unit(const io::PointStore& store, const std::string& file) {
   constexpr double widest_tunnel_m = 400.0;
-  const double narrowest_m = middle_extent(cloud).minCoeff();
+  PointCloud overview;
+  for (std::size_t tile = 0; tile < store.tile_count(); ++tile) {
+    const auto points = store.positions(tile, io::overview_points(store.point_count(tile)));
+    overview.points.insert(overview.points.end(), points.begin(), points.end());
+  }
+  const double narrowest_m = middle_extent(overview).minCoeff();
   if (narrowest_m <= widest_tunnel_m) return;
   char words[120];
   std::snprintf(words, sizeof words,
@@ -45,26 +80,73 @@ void check_unit(const PointCloud& cloud, const std::string& file) {
   throw Error(words, file, "export in metres");
 }
 
-void import_scan(JobState& state, std::size_t index, Progress& progress) {
+void refuse_several_scans(const std::vector<std::string>& names, const std::string& file) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size() && i < 5; ++i) list += (i > 0 ? ", " : "") + names[i];
+  throw Error("the file holds " + std::to_string(names.size()) + " scans (" + list + (names.size() > 5 ? ", ..." : "") +
+                  "); a scan of a job is one of them",
+              file, "add \"scan\": 1 (2, 3, ...) beside \"file\", and one entry for each");
+}
+
+void import_scan(const JobState& state, std::size_t index, std::uint64_t memory_bytes, Progress& progress) {
   const JobScan& scan = state.job.scans[index];
+  const std::filesystem::path file = state.folder / scan.file;
+  const std::filesystem::path target = store_file(state, index);
+  io::StoreOptions options = store_options(state, scan);
+  options.memory_bytes = memory_bytes;
+  if (is_made_already(target, options, progress)) return;
+  io::StoreWriter writer(target, options);
   Progress reading = progress.part(0.6, "reading " + scan.file);
-  io::ScanData data = only_scan(state, scan, reading);
-  data.name = scan.name;
-  if (data.offset.isZero()) data.no_returns += remove_no_returns(data.cloud);
-  const std::string file = (state.folder / scan.file).string();
-  if (data.cloud.empty())
-    throw Error("no point is left after taking out pulses without echo", file, "check the export");
-  check_unit(data.cloud, file);
+  io::stream_scans(file, {}, writer, reading);
+  if (scan.number == 0 && writer.scans_seen().size() > 1) refuse_several_scans(writer.scans_seen(), file.string());
+  if (static_cast<std::size_t>(scan.number) > writer.scans_seen().size())
+    throw Error("there is no scan " + std::to_string(scan.number) + "; the file holds " +
+                    std::to_string(writer.scans_seen().size()),
+                file.string(), "correct \"scan\" in the job");
   Progress writing = progress.part(0.4, "storing " + scan.name);
-  io::write_point_store(store_file(state, index), std::move(data), state.input_sha256.at(scan.file), writing);
+  writer.commit(writing);
+  try {
+    check_unit(io::PointStore(target), file.string());
+  } catch (const Error&) {
+    std::filesystem::remove(target);
+    throw;
+  }
+}
+
+/// Several scans at once, as many as there are threads. The first bad one in the order of the job is what is reported,
+/// whichever was read first.
+void import_scans(const JobState& state, Progress& progress) {
+  const std::size_t scans = state.job.scans.size();
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const std::size_t at_once = std::min(scans, threads);
+  std::vector<Progress> parts;
+  for (const JobScan& scan : state.job.scans)
+    parts.push_back(progress.part(1.0 / static_cast<double>(scans), "reading " + scan.file));
+  std::vector<std::exception_ptr> errors(scans);
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> failed{false};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < scans && !failed; i = next++) {
+      try {
+        import_scan(state, i, state.memory_bytes / 2 / at_once, parts[i]);
+      } catch (...) {
+        errors[i] = std::current_exception();
+        failed = true;
+      }
+    }
+  };
+  tbb::task_group group;
+  for (std::size_t k = 0; k < at_once; ++k) group.run(work);
+  group.wait();
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
 }
 
 void open_stores(JobState& state) {
   state.stores.clear();
   for (std::size_t i = 0; i < state.job.scans.size(); ++i) {
     auto store = std::make_shared<io::PointStore>(store_file(state, i));
-    if (store->source_sha256() != state.input_sha256.at(state.job.scans[i].file) ||
-        store->name() != state.job.scans[i].name)
+    if (!is_made_with(*store, store_options(state, state.job.scans[i])))
       throw Error("the stored points are those of another file", store_file(state, i).string(), "run the import again");
     state.stores.push_back(std::move(store));
   }
@@ -84,9 +166,10 @@ ProjectOrigin origin_of(const JobState& state) {
 }
 
 std::uint64_t points_of(const JobState& state, const std::string& file) {
+  std::uint64_t points = 0;
   for (std::size_t i = 0; i < state.job.scans.size(); ++i)
-    if (state.job.scans[i].file == file) return state.stores[i]->points();
-  return 0;
+    if (state.job.scans[i].file == file) points += state.stores[i]->points();
+  return points;
 }
 
 void summarise(JobState& state) {
@@ -104,7 +187,8 @@ void summarise(JobState& state) {
   }
   for (std::size_t i = 0; i < state.stores.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
-      if (state.stores[i]->source_sha256() == state.stores[k]->source_sha256())
+      if (state.stores[i]->source_sha256() == state.stores[k]->source_sha256() &&
+          state.stores[i]->header().source_scan == state.stores[k]->header().source_scan)
         result.findings.push_back({Severity::decision, "scan " + state.stores[i]->name(),
                                    "its file has the same content as that of scan " + state.stores[k]->name(),
                                    "name the file of the other station"});
@@ -120,11 +204,7 @@ void make_design(JobState& state) {
 
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   std::filesystem::create_directories(state.out / "import");
-  const double share = 1.0 / static_cast<double>(state.job.scans.size());
-  for (std::size_t i = 0; i < state.job.scans.size(); ++i) {
-    Progress part = progress.part(share, "reading " + state.job.scans[i].file);
-    import_scan(state, i, part);
-  }
+  import_scans(state, progress);
   open_stores(state);
   summarise(state);
   make_design(state);

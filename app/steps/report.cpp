@@ -48,7 +48,7 @@ render::OverviewCloud overview(const JobState& state, std::size_t scan) {
   const Pose& pose = state.results.registration.scans[scan].local_from_scan;
   for (std::size_t tile = 0; tile < store.tile_count(); ++tile) {
     const auto prefix = static_cast<std::size_t>(share * static_cast<double>(store.point_count(tile)));
-    for (const auto& p : store.read(tile, prefix).points)
+    for (const auto& p : store.positions(tile, prefix))
       if (!store.offset().isZero() || static_cast<double>(p.norm()) <= state.job.options.profiling.most_range_m)
         cloud.points.push_back((pose * p.cast<double>()).cast<float>());
   }

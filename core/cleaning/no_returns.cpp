@@ -1,24 +1,40 @@
 #include "core/cleaning/no_returns.h"
 
-#include <algorithm>
-#include <vector>
-
 namespace adit {
+namespace {
 
-std::size_t remove_no_returns(PointCloud& cloud) {
-  constexpr float shell_m = 0.01F;
-  constexpr float least_shell_range_m = 10.0F;
-  float farthest = 0.0F;
-  for (const auto& p : cloud.points) farthest = std::max(farthest, p.norm());
-  if (farthest < least_shell_range_m) return 0;
-  std::vector<std::size_t> kept;
-  kept.reserve(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (cloud.points[i].norm() < farthest - shell_m) kept.push_back(i);
-  const std::size_t removed = cloud.size() - kept.size();
-  if (static_cast<double>(removed) < 0.003 * static_cast<double>(cloud.size())) return 0;
-  cloud = selected(cloud, kept);
-  return removed;
+constexpr float shell_m = 0.01F;
+constexpr float least_shell_range_m = 10.0F;
+constexpr double least_share = 0.003;
+constexpr std::uint64_t least_points = 10;
+
+}  // namespace
+
+float NoReturnShell::nearest_m() const {
+  return largest_m_ - shell_m;
+}
+
+void NoReturnShell::add(float range_m) {
+  ++points_;
+  if (range_m < nearest_m()) return;
+  if (range_m > largest_m_) {
+    largest_m_ = range_m;
+    farthest_.erase(farthest_.begin(), farthest_.lower_bound(nearest_m()));
+  }
+  if (largest_m_ >= least_shell_range_m) ++farthest_[range_m];
+}
+
+std::uint64_t NoReturnShell::count() const {
+  if (largest_m_ < least_shell_range_m) return 0;
+  std::uint64_t count = 0;
+  for (const auto& [range_m, times] : farthest_) count += times;
+  const bool is_shell =
+      count >= least_points && static_cast<double>(count) >= least_share * static_cast<double>(points_);
+  return is_shell ? count : 0;
+}
+
+float NoReturnShell::begins_at_m() const {
+  return count() == 0 ? std::numeric_limits<float>::infinity() : nearest_m();
 }
 
 }  // namespace adit

@@ -1,15 +1,30 @@
 #pragma once
 // Pulses without an echo that a scanner wrote as points at its largest range.
 
-#include <cstddef>
-
-#include "core/geometry/point_cloud.h"
+#include <cstdint>
+#include <limits>
+#include <map>
 
 namespace adit {
 
-/// Removes the points that share the scan's largest distance from the scanner (the frame's origin) within 1 cm, when
-/// they are more than 0.3 % of all and that distance exceeds 10 m: no surface of a tunnel is a sphere about the
-/// scanner. Returns how many went.
-std::size_t remove_no_returns(PointCloud& cloud);
+/// Watches the ranges of a stream of points for a shell at the largest distance from the scanner (the frame's origin).
+/// Memory: the distinct float32 ranges within 1 cm.
+class NoReturnShell {
+ public:
+  void add(float range_m);
+  /// Points at this range or farther are pulses without an echo: those that share the largest range within 1 cm, when
+  /// they are ten or more, over 0.3 % of all, and that range exceeds 10 m - no surface of a tunnel is a sphere about
+  /// the scanner. Infinite when there is no such shell.
+  float begins_at_m() const;
+  /// How many points lie there.
+  std::uint64_t count() const;
+
+ private:
+  float nearest_m() const;
+
+  std::map<float, std::uint64_t> farthest_;  ///< ranges within the shell below the largest, and how often each came
+  float largest_m_ = 0.0F;
+  std::uint64_t points_ = 0;
+};
 
 }  // namespace adit

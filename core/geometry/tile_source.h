@@ -22,6 +22,10 @@ class TileSource {
   virtual BoundingBox box(std::size_t tile) const = 0;
   /// The first `prefix` points of a tile (all by default), scan frame.
   virtual PointCloud read(std::size_t tile, std::size_t prefix = all_points) const = 0;
+  /// The same without attributes.
+  virtual std::vector<Eigen::Vector3f> positions(std::size_t tile, std::size_t prefix = all_points) const {
+    return read(tile, prefix).points;
+  }
 };
 
 /// Number of points of all tiles.

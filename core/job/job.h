@@ -9,6 +9,7 @@
 
 #include "core/design/design_tunnel.h"
 #include "core/geometry/pose.h"
+#include "core/job/import_options.h"
 #include "core/profiling/profiling.h"
 #include "core/registration/registration.h"
 #include "core/surface/surface_options.h"
@@ -18,6 +19,7 @@ namespace adit {
 struct JobScan {
   std::string name;
   std::string file;                         ///< relative to the job's folder
+  int number = 0;                           ///< which scan of the file, from 1; 0: the only one
   std::optional<Eigen::Vector3d> position;  ///< site, guess
   YawPitchRoll angles;
 };
@@ -42,6 +44,7 @@ struct JobChainage {
 };
 
 struct JobOptions {
+  ImportOptions import;
   RegistrationOptions registration;
   ProfilingOptions profiling;
   SurfaceOptions surface;
@@ -50,6 +53,7 @@ struct JobOptions {
 /// Calls visit(group name, options struct) for every group: the one list of option groups.
 template <typename Options, typename Visit>
 void for_each_group(Options& options, const Visit& visit) {
+  visit("import", options.import);
   visit("registration", options.registration);
   visit("profiling", options.profiling);
   visit("surface", options.surface);

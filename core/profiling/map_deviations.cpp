@@ -76,7 +76,7 @@ struct Mapper {
     const double from = map.from_m + static_cast<double>(first_row) * map.step_s_m;
     const double to = map.from_m + static_cast<double>(last_row) * map.step_s_m;
     std::optional<double> hint;
-    for (const auto& point : scan.points->read(ref.tile).points) {
+    for (const auto& point : scan.points->positions(ref.tile)) {
       const double range = static_cast<double>(point.norm());
       if (scan.scanner_at_origin && (range < options.least_range_m || range > options.most_range_m)) continue;
       const auto at = design.alignment().to_tunnel(scan.local_from_scan * point.cast<double>(), hint);

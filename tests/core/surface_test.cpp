@@ -75,16 +75,21 @@ TEST(VoxelGrid, AStrayPointFarAwayIsRefused) {
   EXPECT_THROW(even_subsample(cloud, 0.05), Error);
 }
 
-TEST(NoReturns, AShellOfPointsAtTheLargestRangeGoes) {
-  PointCloud cloud;
-  for (int i = 0; i < 1000; ++i) cloud.points.emplace_back(2.0F + 0.01F * static_cast<float>(i), 1.0F, 0.0F);
-  for (int i = 0; i < 10; ++i) {
-    const float a = 0.1F * static_cast<float>(i);
-    cloud.points.emplace_back(32.76F * std::cos(a), 32.76F * std::sin(a), 0.0F);
-  }
-  EXPECT_EQ(remove_no_returns(cloud), 10U);
-  EXPECT_EQ(cloud.size(), 1000U);
-  EXPECT_EQ(remove_no_returns(cloud), 0U);  // a single farthest point is a point
+TEST(NoReturns, AShellOfPointsAtTheLargestRangeIsSeen) {
+  NoReturnShell shell;
+  for (int i = 0; i < 1000; ++i) shell.add(2.0F + 0.01F * static_cast<float>(i));
+  EXPECT_EQ(shell.count(), 0U);  // a single farthest point is a point
+  EXPECT_EQ(shell.begins_at_m(), std::numeric_limits<float>::infinity());
+  for (int i = 0; i < 10; ++i) shell.add(32.76F);
+  EXPECT_EQ(shell.count(), 10U);
+  EXPECT_GT(32.76F, shell.begins_at_m());
+  EXPECT_LT(11.99F, shell.begins_at_m());
+}
+
+TEST(NoReturns, NearSpheresAreRock) {
+  NoReturnShell shell;
+  for (int i = 0; i < 1000; ++i) shell.add(i % 2 == 0 ? 5.0F : 9.0F);
+  EXPECT_EQ(shell.count(), 0U);
 }
 
 }  // namespace

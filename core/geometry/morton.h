@@ -1,0 +1,36 @@
+#pragma once
+// Order along a space-filling (Morton, Z-order) curve: neighbours in the order are neighbours in space.
+
+#include <cstdint>
+#include <vector>
+
+namespace adit {
+
+/// Spreads the low 21 bits of a number to every third bit.
+constexpr std::uint64_t every_third_bit(std::uint64_t x) {
+  x &= 0x1FFFFF;
+  x = (x | x << 32) & 0x1F00000000FFFFULL;
+  x = (x | x << 16) & 0x1F0000FF0000FFULL;
+  x = (x | x << 8) & 0x100F00F00F00F00FULL;
+  x = (x | x << 4) & 0x10C30C30C30C30C3ULL;
+  x = (x | x << 2) & 0x1249249249249249ULL;
+  return x;
+}
+
+/// Key of a cell by its low 21 bits an axis.
+constexpr std::uint64_t morton_key(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
+  return every_third_bit(x) | every_third_bit(y) << 1 | every_third_bit(z) << 2;
+}
+
+struct KeyedIndex {
+  std::uint64_t key;
+  std::uint32_t index;
+};
+
+/// Sorts by key; equal keys keep their order. Radix sort: the time grows with the bits in which the keys differ.
+void sort_by_key(std::vector<KeyedIndex>& items);
+
+/// Positions 0 .. n-1 in bit-reversed order: every prefix is spread evenly over the whole.
+std::vector<std::uint32_t> even_prefix_order(std::uint32_t n);
+
+}  // namespace adit

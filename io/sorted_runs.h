@@ -1,0 +1,94 @@
+#pragma once
+// More points than memory holds, put into the order of the space-filling curve: sorted runs in a spool file, merged.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "core/foundation/progress.h"
+#include "io/stored_points.h"
+
+namespace adit::io {
+
+/// A file without a name in a folder; its space is free again when the program ends, however it ends.
+class SpoolFile {
+ public:
+  explicit SpoolFile(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  ~SpoolFile();
+  SpoolFile(const SpoolFile&) = delete;
+  SpoolFile& operator=(const SpoolFile&) = delete;
+
+  /// Adds bytes; returns their offset. Error when the disk is full. The file is made by the first call.
+  std::uint64_t append(const void* bytes, std::size_t count);
+  void read(std::uint64_t offset, void* to, std::size_t count) const;
+
+ private:
+  std::filesystem::path folder_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+/// Points sorted along the curve: in memory, or column by column in a spool file.
+struct SortedRun {
+  std::size_t count = 0;
+  bool has_intensity = false;
+  bool has_colour = false;
+  bool spooled = false;
+  StoredPoints in_memory;
+  std::uint64_t positions_at = 0;  ///< offsets in the spool
+  std::uint64_t intensity_at = 0;
+  std::uint64_t colour_at = 0;
+};
+
+/// Sorts points into a run in memory.
+SortedRun sorted_run(StoredPoints points, Keep keep);
+
+/// Moves a run to the spool and frees its memory.
+void spool(SortedRun& run, SpoolFile& file);
+
+/// Reads runs as one, in order; memory: a block of each run.
+class MergedRuns {
+ public:
+  MergedRuns(std::vector<SortedRun> runs, const SpoolFile& file, Keep keep);
+  ~MergedRuns();
+  MergedRuns(const MergedRuns&) = delete;
+  MergedRuns& operator=(const MergedRuns&) = delete;
+
+  /// Adds further points behind `to`, those for which is_kept(position) is true, until it holds `count`; fewer only at
+  /// the end.
+  template <typename IsKept>
+  void fill(std::size_t count, StoredPoints& to, const IsKept& is_kept) {
+    while (to.size() < count && !heap_.empty()) {
+      const Stretch stretch = next_stretch(count - to.size());
+      std::size_t begin = stretch.begin;
+      for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
+        if (is_kept(stretch.points->positions[i])) continue;
+        to.append(*stretch.points, begin, i);
+        begin = i + 1;
+      }
+      to.append(*stretch.points, begin, stretch.end);
+      pass(stretch.end - stretch.begin);
+    }
+  }
+
+ private:
+  /// Points of one run that no other run's points come before.
+  struct Stretch {
+    const StoredPoints* points;
+    std::size_t begin;
+    std::size_t end;
+  };
+  struct Front;
+
+  bool is_behind(std::size_t a, std::size_t b) const;
+  Stretch next_stretch(std::size_t most) const;
+  void pass(std::size_t count);
+
+  std::vector<std::unique_ptr<Front>> fronts_;
+  std::vector<std::size_t> heap_;  ///< runs that have points left, the foremost on top
+  Keep keep_;
+};
+
+}  // namespace adit::io

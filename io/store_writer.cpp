@@ -1,0 +1,233 @@
+#include "io/store_writer.h"
+
+#include <tbb/parallel_pipeline.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "core/foundation/error.h"
+#include "core/geometry/morton.h"
+#include "io/atomic_file.h"
+#include "io/scan_offset.h"
+
+namespace adit::io {
+namespace {
+
+// A run being filled, another being sorted: 19 bytes a point each, copies and keys while sorting.
+constexpr std::uint64_t bytes_a_point_of_run = 100;
+constexpr std::uint64_t most_points_of_run = std::uint64_t{1} << 24;
+constexpr std::uint64_t least_points_of_run = std::uint64_t{1} << 16;
+constexpr std::size_t tiles_at_once = 16;
+
+std::size_t points_of_run(std::uint64_t memory_bytes) {
+  return static_cast<std::size_t>(
+      std::clamp(memory_bytes / bytes_a_point_of_run, least_points_of_run, most_points_of_run));
+}
+
+struct Batch {
+  std::size_t index = 0;
+  StoredPoints points;
+};
+
+struct WrittenTile {
+  StoredTile row;
+  std::vector<std::byte> bytes;
+};
+
+std::array<float, 6> box_of(const StoredPoints& points, Keep keep) {
+  Eigen::AlignedBox3f box;
+  for (const StoredPosition& p : points.positions) box.extend(position_of(p, keep));
+  return {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()};
+}
+
+WrittenTile written_tile(const StoredPoints& points, Keep keep) {
+  const auto order = even_prefix_order(static_cast<std::uint32_t>(points.size()));
+  EncodedTile encoded = encoded_tile(points, order, keep);
+  WrittenTile tile;
+  tile.row.code = encoded.code;
+  tile.row.box = box_of(points, keep);
+  tile.row.overview_checksum = prefix_checksum(encoded.code, encoded.bytes.data(), overview_points(points.size()));
+  tile.row.checksum = prefix_checksum(encoded.code, encoded.bytes.data(), points.size());
+  tile.bytes = std::move(encoded.bytes);
+  return tile;
+}
+
+/// Points [n t / tiles, n (t + 1) / tiles) are those of tile t.
+std::uint64_t tile_begin(std::uint64_t points, std::size_t tiles, std::size_t t) {
+  const std::uint64_t each = points / tiles;
+  return each * t + points % tiles * t / tiles;
+}
+
+}  // namespace
+
+StoreWriter::StoreWriter(std::filesystem::path path, StoreOptions options)
+    : path_(std::move(path)),
+      options_(std::move(options)),
+      run_points_(points_of_run(options_.memory_bytes)),
+      spool_(path_.parent_path()) {
+  header_.name = options_.name;
+  header_.source_sha256 = options_.source_sha256;
+  header_.keep = options_.keep;
+}
+
+StoreWriter::~StoreWriter() noexcept {
+  sorting_.cancel();
+  try {
+    sorting_.wait();
+  } catch (...) {
+    // the Error that ended the run is on its way already
+  }
+}
+
+bool StoreWriter::begin(const ScanHeader& scan) {
+  scans_seen_.push_back(scan.name);
+  const std::uint64_t number = scans_seen_.size();
+  if (options_.scan == 0 ? number > 1 : number != options_.scan) return false;
+  taken_ = true;
+  where_ = scan.where;
+  header_.source_scan = number;
+  header_.file_pose = scan.file_pose;
+  header_.has_intensity = scan.attributes.intensity;
+  header_.has_colour = scan.attributes.colour;
+  return true;
+}
+
+void StoreWriter::take(PointBlock& block) {
+  if (first_block_) header_.offset = offset_for(block.positions, where_);
+  first_block_ = false;
+  BoundingBox box;
+  for (const Eigen::Vector3d& p : block.positions) box.extend(p);
+  expect_near_offset(box, header_.offset, where_);
+  add(block);
+  if (filling_.size() >= run_points_) close_run();
+}
+
+void StoreWriter::add(const PointBlock& block) {
+  points_ += block.size();
+  const bool watch_ranges = options_.drop_no_returns && header_.offset.isZero(0.0);
+  for (const Eigen::Vector3d& p : block.positions) {
+    filling_.positions.push_back(stored_position(p - header_.offset, header_.keep));
+    if (watch_ranges) shell_.add(position_of(filling_.positions.back(), header_.keep).norm());
+  }
+  // Zero has one sign, so that equal points are equal to the bit.
+  for (const float value : block.intensity) filling_.intensity.push_back(value + 0.0F);
+  filling_.colour.insert(filling_.colour.end(), block.colour.begin(), block.colour.end());
+}
+
+/// Sorts what has come and spools it, beside the reader.
+void StoreWriter::close_run() {
+  sorting_.wait();
+  auto points = std::make_shared<StoredPoints>(std::move(filling_));
+  filling_ = {};
+  filling_.positions.reserve(points->size());
+  sorting_.run([this, points] {
+    SortedRun run = sorted_run(std::move(*points), header_.keep);
+    spool(run, spool_);
+    runs_.push_back(std::move(run));
+  });
+}
+
+void StoreWriter::end(std::uint64_t no_returns) {
+  header_.no_returns += no_returns;
+}
+
+void StoreWriter::expect_the_scan() const {
+  if (options_.scan == 0 && scans_seen_.size() > 1)
+    throw Error("the file holds " + std::to_string(scans_seen_.size()) + " scans and none of them is chosen", where_,
+                "name one with its number");
+  if (!taken_)
+    throw Error(
+        "there is no scan " + std::to_string(options_.scan) + "; the file holds " + std::to_string(scans_seen_.size()),
+        path_.string(), "choose another");
+}
+
+PointStoreHeader StoreWriter::commit(Progress& progress) {
+  expect_the_scan();
+  const std::uint64_t dropped = shell_.count();
+  header_.points = points_ - dropped;
+  header_.no_returns += dropped;
+  if (header_.points == 0)
+    throw Error("no point is left after taking out pulses without echo", where_, "check the export");
+  sorting_.wait();
+  std::vector<SortedRun> runs = std::move(runs_);
+  if (filling_.size() > 0) {
+    progress.check();
+    runs.push_back(sorted_run(std::move(filling_), header_.keep));
+    filling_ = {};
+  }
+  write_tiles(std::move(runs), progress);
+  return header_;
+}
+
+void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
+  const Keep keep = header_.keep;
+  const auto tiles = static_cast<std::size_t>((header_.points + store_tile_points - 1) / store_tile_points);
+  const float limit_m = shell_.begins_at_m();
+  const auto is_kept = [&](const StoredPosition& p) {
+    return limit_m == std::numeric_limits<float>::infinity() || position_of(p, keep).norm() < limit_m;
+  };
+  MergedRuns merged(std::move(runs), spool_, keep);
+  AtomicFile file(path_);
+  file.append(store_beginning());
+  std::size_t next = 0;
+  const auto next_batch = [&](tbb::flow_control& control) {
+    auto batch = std::make_shared<Batch>();
+    if (next == tiles) {
+      control.stop();
+      return batch;
+    }
+    progress.step(next, tiles);
+    batch->index = next++;
+    const std::uint64_t begin = tile_begin(header_.points, tiles, batch->index);
+    merged.fill(static_cast<std::size_t>(tile_begin(header_.points, tiles, batch->index + 1) - begin), batch->points,
+                is_kept);
+    return batch;
+  };
+  const auto append = [&](const std::shared_ptr<WrittenTile>& tile) {
+    const auto before = header_.tiles.empty() ? 0 : header_.tiles.back().first_point + header_.tiles.back().code.count;
+    tile->row.first_point = before;
+    header_.tiles.push_back(tile->row);
+    file.append(tile->bytes);
+  };
+  tbb::parallel_pipeline(
+      tiles_at_once,
+      tbb::make_filter<void, std::shared_ptr<Batch>>(tbb::filter_mode::serial_in_order, next_batch) &
+          tbb::make_filter<std::shared_ptr<Batch>, std::shared_ptr<WrittenTile>>(
+              tbb::filter_mode::parallel,
+              [&](const std::shared_ptr<Batch>& batch) {
+                return std::make_shared<WrittenTile>(written_tile(batch->points, keep));
+              }) &
+          tbb::make_filter<std::shared_ptr<WrittenTile>, void>(tbb::filter_mode::serial_in_order, append));
+  file.append(store_end(header_));
+  file.commit();
+}
+
+void write_point_store(const std::filesystem::path& path, const ScanData& scan, const StoreOptions& options,
+                       Progress& progress) {
+  StoreWriter writer(path, options);
+  ScanHeader header;
+  header.name = scan.name;
+  header.where = path.string();
+  header.attributes = {scan.cloud.has_intensity(), scan.cloud.has_colour(), false, false};
+  header.file_pose = scan.file_pose;
+  writer.begin(header);
+  PointBlock block;
+  for (std::size_t begin = 0; begin < scan.cloud.size(); begin += PointBlock::most_points) {
+    progress.check();
+    const std::size_t end = std::min(begin + PointBlock::most_points, scan.cloud.size());
+    block.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      block.positions.push_back(scan.cloud.points[i].cast<double>() + scan.offset);
+      if (header.attributes.intensity) block.intensity.push_back(scan.cloud.intensity[i]);
+      if (header.attributes.colour) block.colour.push_back(scan.cloud.colour[i]);
+    }
+    writer.take(block);
+  }
+  writer.end(scan.no_returns);
+  if (scan.cloud.empty()) throw Error("a scan without points cannot be stored", path.string(), "check the scan");
+  writer.commit(progress);
+}
+
+}  // namespace adit::io

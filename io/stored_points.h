@@ -1,0 +1,82 @@
+#pragma once
+// Points as the store keeps them: whole tenths of a millimetre, or float32 to the bit.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace adit::io {
+
+/// How coordinates are kept.
+enum class Keep {
+  tenth_millimetre,  ///< rounded to 0.1 mm: at most 0.05 mm off an axis, about half the bytes
+  float32,           ///< the float32 nearest to coordinate less offset
+};
+
+/// Coordinates less the offset; the meaning of the three words is Keep's.
+using StoredPosition = std::array<std::int32_t, 3>;
+
+inline constexpr double stored_step_m = 1e-4;
+
+inline StoredPosition stored_position(const Eigen::Vector3d& less_offset, Keep keep) {
+  StoredPosition stored{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double value = less_offset[static_cast<Eigen::Index>(axis)];
+    // lrint: to the nearest, halves to even; one instruction where lround is a call.
+    stored[axis] = keep == Keep::float32 ? std::bit_cast<std::int32_t>(static_cast<float>(value))
+                                         : static_cast<std::int32_t>(std::lrint(value / stored_step_m));
+  }
+  return stored;
+}
+
+inline Eigen::Vector3f position_of(const StoredPosition& stored, Keep keep) {
+  Eigen::Vector3f position;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    position[static_cast<Eigen::Index>(axis)] =
+        keep == Keep::float32 ? std::bit_cast<float>(stored[axis])
+                              : static_cast<float>(static_cast<double>(stored[axis]) * stored_step_m);
+  return position;
+}
+
+/// Points with their attributes, column by column; attributes are empty or as long as positions.
+struct StoredPoints {
+  std::vector<StoredPosition> positions;
+  std::vector<float> intensity;
+  std::vector<std::array<std::uint8_t, 3>> colour;
+
+  std::size_t size() const { return positions.size(); }
+  void clear() {
+    positions.clear();
+    intensity.clear();
+    colour.clear();
+  }
+  /// Adds points begin .. end of others.
+  void append(const StoredPoints& others, std::size_t begin, std::size_t end) {
+    const auto copy = [&](auto& values, const auto& from) {
+      if (!from.empty())
+        values.insert(values.end(), from.begin() + static_cast<std::ptrdiff_t>(begin),
+                      from.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    copy(positions, others.positions);
+    copy(intensity, others.intensity);
+    copy(colour, others.colour);
+  }
+};
+
+/// Where a point stands along the space-filling curve: by its cell of 4 mm. Beyond 4 km from the offset all cells of a
+/// side are one.
+std::uint64_t curve_key(const StoredPosition& stored, Keep keep);
+
+/// A total order of points: along the curve, then by coordinates and attributes. Two points that compare equal are the
+/// same to the bit, so a sort does not depend on the order they came in.
+bool comes_before(const StoredPoints& a, std::size_t i, std::uint64_t key_a, const StoredPoints& b, std::size_t k,
+                  std::uint64_t key_b);
+
+/// Indices of the points in that order.
+std::vector<std::uint32_t> curve_order(const StoredPoints& points, Keep keep);
+
+}  // namespace adit::io

@@ -1,0 +1,153 @@
+#include "io/tile_codec.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "io/checksum.h"
+#include "io/packed_bits.h"
+
+namespace adit::io {
+namespace {
+
+constexpr std::size_t intensity_column = 3;
+constexpr std::size_t colour_column = 4;
+
+unsigned bits_for(std::uint32_t largest) {
+  return static_cast<unsigned>(std::bit_width(largest));
+}
+
+/// 8 or 16 bits where all intensities are such whole numbers, else a float's 32.
+unsigned intensity_width(const std::vector<float>& values) {
+  float largest = 0.0F;
+  for (const float value : values) {
+    if (!(value >= 0.0F && value <= 65535.0F) || value != std::floor(value) || std::signbit(value)) return 32;
+    largest = std::max(largest, value);
+  }
+  return bits_for(static_cast<std::uint32_t>(largest));
+}
+
+class ColumnPacker {
+ public:
+  ColumnPacker(EncodedTile& tile, std::span<const std::uint32_t> order) : tile_(tile), order_(order) {
+    numbers_.resize(order.size());
+  }
+  template <typename NumberOf>
+  void pack(std::size_t column, unsigned width, const NumberOf& number_of) {
+    for (std::size_t i = 0; i < order_.size(); ++i) numbers_[i] = number_of(order_[i]);
+    tile_.code.width[column] = static_cast<std::uint8_t>(width);
+    pack_bits(numbers_, width, tile_.bytes);
+    tile_.bytes.resize(column_offset(tile_.code, column + 1));
+  }
+
+ private:
+  EncodedTile& tile_;
+  std::span<const std::uint32_t> order_;
+  std::vector<std::uint32_t> numbers_;
+};
+
+void pack_positions(const StoredPoints& points, Keep keep, EncodedTile& tile, ColumnPacker& packer) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto value = [&](std::uint32_t i) { return points.positions[i][axis]; };
+    if (keep == Keep::float32) {
+      packer.pack(axis, 32, [&](std::uint32_t i) { return static_cast<std::uint32_t>(value(i)); });
+      continue;
+    }
+    std::int32_t least = points.positions.front()[axis], most = least;
+    for (const StoredPosition& p : points.positions) {
+      least = std::min(least, p[axis]);
+      most = std::max(most, p[axis]);
+    }
+    tile.code.origin[axis] = least;
+    const auto above = [&](std::int32_t v) {
+      return static_cast<std::uint32_t>(v) - static_cast<std::uint32_t>(least);
+    };
+    packer.pack(axis, bits_for(above(most)), [&](std::uint32_t i) { return above(value(i)); });
+  }
+}
+
+void unpack_axis(const TileCode& code, const std::byte* from, std::size_t axis, Keep keep, PointCloud& cloud) {
+  const unsigned width = code.width[axis];
+  const auto k = static_cast<Eigen::Index>(axis);
+  const auto origin = static_cast<std::uint32_t>(code.origin[axis]);
+  if (keep == Keep::float32) {
+    for (std::size_t i = 0; i < cloud.points.size(); ++i)
+      cloud.points[i][k] = std::bit_cast<float>(packed_number(from, i, width));
+    return;
+  }
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const auto stored = static_cast<std::int32_t>(origin + packed_number(from, i, width));
+    cloud.points[i][k] = static_cast<float>(static_cast<double>(stored) * stored_step_m);
+  }
+}
+
+}  // namespace
+
+std::size_t column_offset(const TileCode& code, std::size_t column) {
+  std::size_t offset = 0;
+  for (std::size_t c = 0; c < column; ++c) offset += (packed_bytes(code.count, code.width[c]) + 7) / 8 * 8;
+  return offset;
+}
+
+std::size_t tile_bytes(const TileCode& code) {
+  return column_offset(code, tile_columns) + 8;
+}
+
+EncodedTile encoded_tile(const StoredPoints& points, std::span<const std::uint32_t> order, Keep keep) {
+  EncodedTile tile;
+  tile.code.count = static_cast<std::uint32_t>(order.size());
+  ColumnPacker packer(tile, order);
+  pack_positions(points, keep, tile, packer);
+  if (!points.intensity.empty()) {
+    const unsigned width = intensity_width(points.intensity);
+    packer.pack(intensity_column, width, [&](std::uint32_t i) {
+      const float value = points.intensity[i];
+      return width == 32 ? std::bit_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
+    });
+  }
+  if (!points.colour.empty())
+    packer.pack(colour_column, 24, [&](std::uint32_t i) {
+      const auto& c = points.colour[i];
+      return std::uint32_t{c[0]} | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16;
+    });
+  tile.bytes.resize(tile_bytes(tile.code));
+  return tile;
+}
+
+PointCloud decoded_tile(const TileCode& code, const std::byte* tile, std::size_t prefix, Keep keep,
+                        WantedColumns wanted) {
+  PointCloud cloud;
+  cloud.points.resize(prefix);
+  for (std::size_t axis = 0; axis < 3; ++axis) unpack_axis(code, tile + column_offset(code, axis), axis, keep, cloud);
+  if (wanted.intensity) {
+    const unsigned width = code.width[intensity_column];
+    const std::byte* from = tile + column_offset(code, intensity_column);
+    cloud.intensity.resize(prefix);
+    for (std::size_t i = 0; i < prefix; ++i) {
+      const std::uint32_t number = packed_number(from, i, width);
+      cloud.intensity[i] = width == 32 ? std::bit_cast<float>(number) : static_cast<float>(number);
+    }
+  }
+  if (wanted.colour) {
+    const std::byte* from = tile + column_offset(code, colour_column);
+    cloud.colour.resize(prefix);
+    for (std::size_t i = 0; i < prefix; ++i) {
+      const std::uint32_t number = packed_number(from, i, code.width[colour_column]);
+      for (unsigned c = 0; c < 3; ++c) cloud.colour[i][c] = static_cast<std::uint8_t>(number >> (8 * c));
+    }
+  }
+  return cloud;
+}
+
+std::uint64_t prefix_checksum(const TileCode& code, const std::byte* tile, std::size_t prefix) {
+  Checksum sum;
+  if (prefix >= code.count) {
+    sum.add({tile, tile_bytes(code)});
+  } else {
+    for (std::size_t column = 0; column < tile_columns; ++column)
+      sum.add({tile + column_offset(code, column), packed_bytes(prefix, code.width[column])});
+  }
+  return sum.value();
+}
+
+}  // namespace adit::io
