@@ -3,6 +3,7 @@
 // folder.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -28,12 +29,15 @@ class AtomicFile {
  private:
   void flush();
   void write_through(const char* bytes, std::size_t count);
+  void start_writeback(std::uint64_t written);
   void close();
   [[noreturn]] void fail(const std::string& what_is_wrong, int error_number) const;
 
   std::filesystem::path target_;
   std::filesystem::path temporary_;
   int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+  std::uint64_t given_to_disk_ = 0;
   std::string buffer_;
 };
 

@@ -13,8 +13,8 @@ namespace adit::io {
 /// source gathers it (FactsSink).
 struct ScanFacts {
   ScanHeader header;
-  std::uint64_t points = 0;  ///< exactly as many as will be handed out
-  BoundingBox box;           ///< of the points, file coordinates
+  std::uint64_t points = 0;             ///< exactly as many as will be handed out
+  BoundingBox box;                      ///< of the points, file coordinates
   bool coordinates_are_float32 = true;  ///< every coordinate is a float32 to the last bit
   float least_intensity = 0.0F;
   float greatest_intensity = 0.0F;

@@ -19,15 +19,6 @@ namespace {
 constexpr std::size_t block_points = 65536;
 
 template <typename T>
-std::vector<T> in_order(const std::vector<T>& values, const std::vector<std::uint32_t>& order) {
-  std::vector<T> result;
-  if (values.empty()) return result;
-  result.reserve(order.size());
-  for (const std::uint32_t i : order) result.push_back(values[i]);
-  return result;
-}
-
-template <typename T>
 std::uint64_t spool_column(std::vector<T>& values, SpoolFile& file) {
   const std::uint64_t at = file.append(values.data(), values.size() * sizeof(T));
   std::vector<T>().swap(values);
@@ -83,17 +74,12 @@ void SpoolFile::read(std::uint64_t offset, void* to, std::size_t count) const {
   }
 }
 
-SortedRun sorted_run(StoredPoints points, Keep keep) {
-  const std::vector<std::uint32_t> order = curve_order(points, keep);
+SortedRun run_of(StoredPoints sorted) {
   SortedRun run;
-  run.count = points.size();
-  run.has_intensity = !points.intensity.empty();
-  run.has_colour = !points.colour.empty();
-  run.in_memory.positions = in_order(points.positions, order);
-  points.positions = {};
-  run.in_memory.intensity = in_order(points.intensity, order);
-  points.intensity = {};
-  run.in_memory.colour = in_order(points.colour, order);
+  run.count = sorted.size();
+  run.has_intensity = !sorted.intensity.empty();
+  run.has_colour = !sorted.colour.empty();
+  run.in_memory = std::move(sorted);
   return run;
 }
 
@@ -105,40 +91,51 @@ void spool(SortedRun& run, SpoolFile& file) {
   run.spooled = true;
 }
 
-/// A run as far as it has been read.
+/// A run as far as it has been read: block by block from the spool; one in memory is its own only block.
 struct MergedRuns::Front {
   SortedRun run;
   const SpoolFile& file;
   StoredPoints block;
-  std::vector<std::uint64_t> keys;  ///< of the block
-  std::size_t next = 0;             ///< in the block
-  std::size_t read = 0;             ///< points of the run that are or were in a block
+  std::vector<std::uint64_t> keys;  ///< of the block's points from first_key on
+  std::size_t first_key = 0;
+  std::size_t next = 0;  ///< in the block
+  std::size_t read = 0;  ///< points of the run that are or were in a block
+
+  const StoredPoints& points() const { return run.spooled ? block : run.in_memory; }
+  std::uint64_t key(std::size_t i) const { return keys[i - first_key]; }
 
   /// The next block; false when the run has no more.
-  bool refill(Keep keep) {
-    const std::size_t count = std::min(block_points, run.count - read);
+  bool refill() {
+    const std::size_t count = run.spooled ? std::min(block_points, run.count - read) : run.count - read;
     if (count == 0) return false;
     if (run.spooled) {
       read_column(file, run.positions_at, read, count, block.positions);
       if (run.has_intensity) read_column(file, run.intensity_at, read, count, block.intensity);
       if (run.has_colour) read_column(file, run.colour_at, read, count, block.colour);
-    } else {
-      block.clear();
-      block.append(run.in_memory, read, read + count);
     }
-    keys.resize(count);
-    for (std::size_t i = 0; i < count; ++i) keys[i] = curve_key(block.positions[i], keep);
     read += count;
     next = 0;
+    first_key = 0;
+    keys.clear();
     return true;
   }
+  /// Keys of the present point and some thousand behind it.
+  void make_keys(Keep keep) {
+    const std::size_t end = std::min(points().size(), next + block_points);
+    first_key = next;
+    keys.resize(end - next);
+    for (std::size_t i = next; i < end; ++i) keys[i - next] = curve_key(points().positions[i], keep);
+  }
+  std::size_t keys_end() const { return first_key + keys.size(); }
 };
 
 MergedRuns::MergedRuns(std::vector<SortedRun> runs, const SpoolFile& file, Keep keep) : keep_(keep) {
   for (SortedRun& run : runs) {
     fronts_.push_back(std::unique_ptr<Front>(new Front{std::move(run), file, {}, {}}));
-    if (fronts_.back()->refill(keep_)) heap_.push_back(fronts_.size() - 1);
+    if (fronts_.back()->refill()) heap_.push_back(fronts_.size() - 1);
   }
+  if (heap_.size() > 1)
+    for (const std::size_t i : heap_) fronts_[i]->make_keys(keep_);
   std::make_heap(heap_.begin(), heap_.end(), [&](std::size_t a, std::size_t b) { return is_behind(a, b); });
 }
 
@@ -147,33 +144,39 @@ MergedRuns::~MergedRuns() = default;
 bool MergedRuns::is_behind(std::size_t a, std::size_t b) const {
   const Front& f = *fronts_[a];
   const Front& g = *fronts_[b];
-  return comes_before(g.block, g.next, g.keys[g.next], f.block, f.next, f.keys[f.next]);
+  return comes_before(g.points(), g.next, g.key(g.next), f.points(), f.next, f.key(f.next));
 }
 
 MergedRuns::Stretch MergedRuns::next_stretch(std::size_t most) const {
   const Front& first = *fronts_[heap_.front()];
-  std::size_t end = std::min(first.block.size(), first.next + most);
+  const StoredPoints& points = first.points();
+  std::size_t end = std::min(points.size(), first.next + most);
   if (heap_.size() > 1) {
     const std::size_t other = heap_.size() == 2 || is_behind(heap_[2], heap_[1]) ? heap_[1] : heap_[2];
     const Front& second = *fronts_[other];
-    const std::uint64_t limit = second.keys[second.next];
+    const std::uint64_t limit = second.key(second.next);
+    end = std::min(end, first.keys_end());
     std::size_t i = first.next + 1;
-    while (i < end &&
-           (first.keys[i] < limit || comes_before(first.block, i, first.keys[i], second.block, second.next, limit)))
+    while (i < end && (first.key(i) < limit ||
+                       (first.key(i) == limit && comes_before(points, i, limit, second.points(), second.next, limit))))
       ++i;
-    end = std::min(i, end);
+    end = i;
   }
-  return {&first.block, first.next, end};
+  return {&points, first.next, end};
 }
 
 void MergedRuns::pass(std::size_t count) {
   const auto behind = [&](std::size_t a, std::size_t b) { return is_behind(a, b); };
   const std::size_t first = heap_.front();
+  Front& front = *fronts_[first];
   std::pop_heap(heap_.begin(), heap_.end(), behind);
   heap_.pop_back();
-  Front& front = *fronts_[first];
   front.next += count;
-  if (front.next == front.block.size() && !front.refill(keep_)) return;
+  if (front.next == front.points().size() && !front.refill()) {
+    front.run.in_memory = {};
+    return;
+  }
+  if (!heap_.empty() && front.next >= front.keys_end()) front.make_keys(keep_);
   heap_.push_back(first);
   std::push_heap(heap_.begin(), heap_.end(), behind);
 }

@@ -42,13 +42,13 @@ struct SortedRun {
   std::uint64_t colour_at = 0;
 };
 
-/// Sorts points into a run in memory.
-SortedRun sorted_run(StoredPoints points, Keep keep);
+/// A run in memory of points that are sorted already.
+SortedRun run_of(StoredPoints sorted);
 
 /// Moves a run to the spool and frees its memory.
 void spool(SortedRun& run, SpoolFile& file);
 
-/// Reads runs as one, in order; memory: a block of each run.
+/// Reads runs as one, in order; memory: a block of each spooled run.
 class MergedRuns {
  public:
   MergedRuns(std::vector<SortedRun> runs, const SpoolFile& file, Keep keep);

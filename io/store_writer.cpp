@@ -15,16 +15,7 @@
 namespace adit::io {
 namespace {
 
-// A run being filled, another being sorted: 19 bytes a point each, copies and keys while sorting.
-constexpr std::uint64_t bytes_a_point_of_run = 100;
-constexpr std::uint64_t most_points_of_run = std::uint64_t{1} << 24;
-constexpr std::uint64_t least_points_of_run = std::uint64_t{1} << 16;
 constexpr std::size_t tiles_at_once = 16;
-
-std::size_t points_of_run(std::uint64_t memory_bytes) {
-  return static_cast<std::size_t>(
-      std::clamp(memory_bytes / bytes_a_point_of_run, least_points_of_run, most_points_of_run));
-}
 
 struct Batch {
   std::size_t index = 0;
@@ -63,10 +54,7 @@ std::uint64_t tile_begin(std::uint64_t points, std::size_t tiles, std::size_t t)
 }  // namespace
 
 StoreWriter::StoreWriter(std::filesystem::path path, StoreOptions options)
-    : path_(std::move(path)),
-      options_(std::move(options)),
-      run_points_(points_of_run(options_.memory_bytes)),
-      spool_(path_.parent_path()) {
+    : path_(std::move(path)), options_(std::move(options)), spool_(path_.parent_path()) {
   header_.name = options_.name;
   header_.source_sha256 = options_.source_sha256;
   header_.keep = options_.keep;
@@ -91,6 +79,7 @@ bool StoreWriter::begin(const ScanHeader& scan) {
   header_.file_pose = scan.file_pose;
   header_.has_intensity = scan.attributes.intensity;
   header_.has_colour = scan.attributes.colour;
+  filling_.positions.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(scan.points, options_.run_points)));
   return true;
 }
 
@@ -101,32 +90,41 @@ void StoreWriter::take(PointBlock& block) {
   for (const Eigen::Vector3d& p : block.positions) box.extend(p);
   expect_near_offset(box, header_.offset, where_);
   add(block);
-  if (filling_.size() >= run_points_) close_run();
+  if (filling_.size() >= options_.run_points) close_run();
 }
 
 void StoreWriter::add(const PointBlock& block) {
   points_ += block.size();
   const bool watch_ranges = options_.drop_no_returns && header_.offset.isZero(0.0);
-  for (const Eigen::Vector3d& p : block.positions) {
-    filling_.positions.push_back(stored_position(p - header_.offset, header_.keep));
-    if (watch_ranges) shell_.add(position_of(filling_.positions.back(), header_.keep).norm());
+  const std::size_t before = filling_.size();
+  filling_.positions.resize(before + block.size());
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    StoredPosition& stored = filling_.positions[before + i];
+    stored = stored_position(block.positions[i] - header_.offset, header_.keep);
+    if (watch_ranges) shell_.add(position_of(stored, header_.keep).norm());
   }
   // Zero has one sign, so that equal points are equal to the bit.
   for (const float value : block.intensity) filling_.intensity.push_back(value + 0.0F);
   filling_.colour.insert(filling_.colour.end(), block.colour.begin(), block.colour.end());
 }
 
-/// Sorts what has come and spools it, beside the reader.
+/// Sorts what has come, beside the reader.
 void StoreWriter::close_run() {
   sorting_.wait();
   auto points = std::make_shared<StoredPoints>(std::move(filling_));
   filling_ = {};
   filling_.positions.reserve(points->size());
-  sorting_.run([this, points] {
-    SortedRun run = sorted_run(std::move(*points), header_.keep);
+  sorting_.run([this, points] { add_run(*points); });
+}
+
+void StoreWriter::add_run(const StoredPoints& points) {
+  SortedRun run = run_of(sorter_.sorted(points, header_.keep));
+  const std::uint64_t bytes = run.count * (12U + (run.has_intensity ? 4U : 0U) + (run.has_colour ? 3U : 0U));
+  if (run_bytes_ + bytes > options_.memory_bytes)
     spool(run, spool_);
-    runs_.push_back(std::move(run));
-  });
+  else
+    run_bytes_ += bytes;
+  runs_.push_back(std::move(run));
 }
 
 void StoreWriter::end(std::uint64_t no_returns) {
@@ -151,13 +149,11 @@ PointStoreHeader StoreWriter::commit(Progress& progress) {
   if (header_.points == 0)
     throw Error("no point is left after taking out pulses without echo", where_, "check the export");
   sorting_.wait();
-  std::vector<SortedRun> runs = std::move(runs_);
-  if (filling_.size() > 0) {
-    progress.check();
-    runs.push_back(sorted_run(std::move(filling_), header_.keep));
-    filling_ = {};
-  }
-  write_tiles(std::move(runs), progress);
+  progress.check();
+  if (filling_.size() > 0) add_run(filling_);
+  filling_ = {};
+  sorter_ = {};
+  write_tiles(std::move(runs_), progress);
   return header_;
 }
 

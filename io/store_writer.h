@@ -23,7 +23,10 @@ struct StoreOptions {
   std::string source_sha256;  ///< of the file it comes from (64 hexadecimal digits, or empty)
   std::uint64_t scan = 0;     ///< which scan of the file, from 1; 0: the only one
   Keep keep = Keep::tenth_millimetre;
-  std::uint64_t memory_bytes = std::uint64_t{1} << 30;  ///< for the points on their way; 64 MiB at least is taken
+  /// For sorted points that wait for their tiles; what does not fit is spooled. Some 300 MiB come on top.
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30;
+  /// Points sorted at once: few enough for the sort to stay near the processor (75 MB of points, 130 MB of keys).
+  std::size_t run_points = std::size_t{1} << 22;
   bool drop_no_returns =
       true;  ///< leave out pulses without an echo (NoReturnShell), where the scanner is at the origin
 };
@@ -58,6 +61,7 @@ class StoreWriter : public ScanSink {
   void expect_the_scan() const;
   void add(const PointBlock& block);
   void close_run();
+  void add_run(const StoredPoints& points);
   void write_tiles(std::vector<SortedRun> runs, Progress& progress);
 
   std::filesystem::path path_;
@@ -66,14 +70,15 @@ class StoreWriter : public ScanSink {
   std::string where_;
   std::vector<std::string> scans_seen_;
   bool taken_ = false;
-  std::size_t run_points_;
   bool first_block_ = true;
   std::uint64_t points_ = 0;
   NoReturnShell shell_;
   StoredPoints filling_;
   SpoolFile spool_;
+  CurveSorter sorter_;
   std::vector<SortedRun> runs_;
-  tbb::task_group sorting_;  ///< at most one run at a time, beside the reader
+  std::uint64_t run_bytes_ = 0;  ///< of the runs in memory
+  tbb::task_group sorting_;      ///< at most one run at a time, beside the reader
 };
 
 /// A scan in memory as a store (tests, small clouds). Errors as StoreWriter.

@@ -2,24 +2,30 @@
 
 #include <algorithm>
 
-#include "core/geometry/morton.h"
-
 namespace adit::io {
 namespace {
 
-constexpr std::int32_t steps_a_cell = 40;
-constexpr double cells_a_metre = 250.0;
+constexpr int steps_a_cell_bits = 5;  // 32 steps of 0.1 mm
+constexpr double cells_a_metre = 312.5;
 // Scans reach some 100 m: with this much added their cells need 16 bits an axis, and the sort fewer passes.
 constexpr std::int64_t middle = std::int64_t{1} << 15;
 constexpr std::int64_t farthest = (std::int64_t{1} << 20) - 1;
 
 std::uint64_t cell_of(std::int32_t stored, Keep keep) {
-  std::int64_t cell = 0;
-  if (keep == Keep::float32)
-    cell = static_cast<std::int64_t>(std::floor(static_cast<double>(std::bit_cast<float>(stored)) * cells_a_metre));
-  else
-    cell = stored / steps_a_cell - (stored % steps_a_cell < 0 ? 1 : 0);
+  const std::int64_t cell =
+      keep == Keep::float32
+          ? static_cast<std::int64_t>(std::floor(static_cast<double>(std::bit_cast<float>(stored)) * cells_a_metre))
+          : stored >> steps_a_cell_bits;
   return static_cast<std::uint64_t>(std::clamp(cell, -farthest, farthest) + middle) & 0x1FFFFF;
+}
+
+template <typename T>
+std::vector<T> in_order(const std::vector<T>& values, const std::vector<KeyedIndex>& order) {
+  std::vector<T> result;
+  if (values.empty()) return result;
+  result.reserve(order.size());
+  for (const KeyedIndex& item : order) result.push_back(values[item.index]);
+  return result;
 }
 
 }  // namespace
@@ -36,24 +42,26 @@ bool comes_before(const StoredPoints& a, std::size_t i, std::uint64_t key_a, con
   return !a.colour.empty() && a.colour[i] < b.colour[k];
 }
 
-std::vector<std::uint32_t> curve_order(const StoredPoints& points, Keep keep) {
-  std::vector<KeyedIndex> items(points.size());
-  for (std::size_t i = 0; i < items.size(); ++i)
-    items[i] = {curve_key(points.positions[i], keep), static_cast<std::uint32_t>(i)};
-  sort_by_key(items);
-  for (std::size_t begin = 0; begin < items.size();) {
+void CurveSorter::put_equal_keys_in_order(const StoredPoints& points) {
+  const auto at = [&](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
+  for (std::size_t begin = 0; begin < items_.size();) {
     std::size_t end = begin + 1;
-    while (end < items.size() && items[end].key == items[begin].key) ++end;
+    while (end < items_.size() && items_[end].key == items_[begin].key) ++end;
     if (end - begin > 1)
-      std::sort(items.begin() + static_cast<std::ptrdiff_t>(begin), items.begin() + static_cast<std::ptrdiff_t>(end),
-                [&](const KeyedIndex& a, const KeyedIndex& b) {
-                  return comes_before(points, a.index, a.key, points, b.index, b.key);
-                });
+      std::sort(at(begin), at(end), [&](const KeyedIndex& a, const KeyedIndex& b) {
+        return comes_before(points, a.index, a.key, points, b.index, b.key);
+      });
     begin = end;
   }
-  std::vector<std::uint32_t> order(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) order[i] = items[i].index;
-  return order;
+}
+
+StoredPoints CurveSorter::sorted(const StoredPoints& points, Keep keep) {
+  items_.resize(points.size());
+  for (std::size_t i = 0; i < items_.size(); ++i)
+    items_[i] = {curve_key(points.positions[i], keep), static_cast<std::uint32_t>(i)};
+  sort_by_key(items_, scratch_);
+  put_equal_keys_in_order(points);
+  return {in_order(points.positions, items_), in_order(points.intensity, items_), in_order(points.colour, items_)};
 }
 
 }  // namespace adit::io

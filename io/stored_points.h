@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/geometry/morton.h"
+
 namespace adit::io {
 
 /// How coordinates are kept.
@@ -21,14 +23,15 @@ enum class Keep {
 using StoredPosition = std::array<std::int32_t, 3>;
 
 inline constexpr double stored_step_m = 1e-4;
+inline constexpr double stored_steps_a_metre = 1e4;
 
 inline StoredPosition stored_position(const Eigen::Vector3d& less_offset, Keep keep) {
   StoredPosition stored{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double value = less_offset[static_cast<Eigen::Index>(axis)];
-    // lrint: to the nearest, halves to even; one instruction where lround is a call.
+    const double steps = value * stored_steps_a_metre;
     stored[axis] = keep == Keep::float32 ? std::bit_cast<std::int32_t>(static_cast<float>(value))
-                                         : static_cast<std::int32_t>(std::lrint(value / stored_step_m));
+                                         : static_cast<std::int32_t>(steps + (steps < 0.0 ? -0.5 : 0.5));
   }
   return stored;
 }
@@ -67,8 +70,8 @@ struct StoredPoints {
   }
 };
 
-/// Where a point stands along the space-filling curve: by its cell of 4 mm. Beyond 4 km from the offset all cells of a
-/// side are one.
+/// Where a point stands along the space-filling curve: by its cell of 3.2 mm. Beyond 3 km from the offset all cells of
+/// a side are one.
 std::uint64_t curve_key(const StoredPosition& stored, Keep keep);
 
 /// A total order of points: along the curve, then by coordinates and attributes. Two points that compare equal are the
@@ -76,7 +79,16 @@ std::uint64_t curve_key(const StoredPosition& stored, Keep keep);
 bool comes_before(const StoredPoints& a, std::size_t i, std::uint64_t key_a, const StoredPoints& b, std::size_t k,
                   std::uint64_t key_b);
 
-/// Indices of the points in that order.
-std::vector<std::uint32_t> curve_order(const StoredPoints& points, Keep keep);
+/// Sorts points in that order; keeps its memory for the next time.
+class CurveSorter {
+ public:
+  StoredPoints sorted(const StoredPoints& points, Keep keep);
+
+ private:
+  void put_equal_keys_in_order(const StoredPoints& points);
+
+  std::vector<KeyedIndex> items_;
+  std::vector<KeyedIndex> scratch_;
+};
 
 }  // namespace adit::io
