@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/job_checks.h"
+#include "core/foundation/parallel.h"
 #include "io/control_csv.h"
 #include "io/job_json.h"
 #include "io/landxml.h"
@@ -63,10 +64,11 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
     state.truth = io::read_truth(truth);
     state.input_sha256["truth.json"] = io::sha256_of_file(truth, progress);
   }
-  for (const std::string& name : files_of(state.job)) {
-    progress.check();
-    state.input_sha256[name] = io::sha256_of_file(state.folder / name, progress);
-  }
+  const std::vector<std::string> files = files_of(state.job);
+  std::vector<std::string> hashes(files.size());
+  parallel_for_each_index(
+      files.size(), [&](std::size_t i) { hashes[i] = io::sha256_of_file(state.folder / files[i], progress); }, 1);
+  for (std::size_t i = 0; i < files.size(); ++i) state.input_sha256[files[i]] = hashes[i];
   return state;
 }
 

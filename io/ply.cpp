@@ -24,7 +24,7 @@ std::uint8_t colour_byte(double value, PlyType type) {
   return static_cast<std::uint8_t>(std::clamp(byte, 0.0, 255.0));
 }
 
-void put(FilePoint& point, PlyTarget target, PlyType type, double value) {
+inline void put(FilePoint& point, PlyTarget target, PlyType type, double value) {
   switch (target) {
     case PlyTarget::x:
     case PlyTarget::y:
@@ -115,27 +115,53 @@ void read_row_with_lists(const InputFile& file, std::endian order, const std::ve
   }
 }
 
-void read_binary(const InputFile& file, const PlyHeader& header, PointStream& out, const Progress& progress) {
+/// Rows with lists have no fixed length: value by value.
+void read_rows_with_lists(const InputFile& file, const PlyHeader& header, ByteCursor& cursor, PointStream& out,
+                          const Progress& progress) {
   const PlyElement& vertex = header.elements[header.vertex];
-  std::vector<Column> columns = columns_of(vertex);
-  const auto row_bytes = static_cast<std::size_t>(vertex.row_bytes());
-  const bool has_lists = vertex.has_lists();
-  if (!has_lists) std::erase_if(columns, [](const Column& column) { return column.target == PlyTarget::none; });
-  ByteCursor cursor(file, header.body_offset, file.size());
-  skip_to_vertices(file, header, cursor, progress);
+  const std::vector<Column> columns = columns_of(vertex);
   FilePoint point;
   for (std::uint64_t i = 0; i < vertex.count; ++i) {
     if (i % points_between_checks == 0) progress.step(i, vertex.count);
     const std::uint64_t at = cursor.position();
-    if (has_lists) {
-      read_row_with_lists(file, header.order, columns, cursor, point);
-    } else {
-      const std::byte* row = cursor.take(row_bytes);
-      for (const Column& column : columns)
-        put(point, column.target, column.type, ply_value(column.type, header.order, row + column.offset));
-    }
+    read_row_with_lists(file, header.order, columns, cursor, point);
     out.add(point, [&] { return file.at_byte(at) + " (point " + std::to_string(i + 1) + ")"; });
   }
+}
+
+/// Column by column: the type is looked at once for many rows.
+void read_rows(const InputFile& file, const PlyHeader& header, ByteCursor& cursor, PointStream& out,
+               const Progress& progress) {
+  const PlyElement& vertex = header.elements[header.vertex];
+  std::vector<Column> columns = columns_of(vertex);
+  std::erase_if(columns, [](const Column& column) { return column.target == PlyTarget::none; });
+  const auto row_bytes = static_cast<std::size_t>(vertex.row_bytes());
+  const std::uint64_t most_rows = std::max<std::uint64_t>(1, (std::uint64_t{1} << 16) / row_bytes);
+  std::vector<FilePoint> points;
+  std::vector<double> values;
+  for (std::uint64_t done = 0; done < vertex.count; done += points.size()) {
+    progress.step(done, vertex.count);
+    const std::uint64_t at = cursor.position();
+    points.assign(static_cast<std::size_t>(std::min(most_rows, vertex.count - done)), FilePoint());
+    values.resize(points.size());
+    const std::byte* rows = cursor.take(points.size() * row_bytes);
+    for (const Column& column : columns) {
+      ply_values(column.type, header.order, rows + column.offset, row_bytes, points.size(), values.data());
+      for (std::size_t i = 0; i < points.size(); ++i) put(points[i], column.target, column.type, values[i]);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+      out.add(points[i],
+              [&] { return file.at_byte(at + i * row_bytes) + " (point " + std::to_string(done + i + 1) + ")"; });
+  }
+}
+
+void read_binary(const InputFile& file, const PlyHeader& header, PointStream& out, const Progress& progress) {
+  ByteCursor cursor(file, header.body_offset, file.size());
+  skip_to_vertices(file, header, cursor, progress);
+  if (header.elements[header.vertex].has_lists())
+    read_rows_with_lists(file, header, cursor, out, progress);
+  else
+    read_rows(file, header, cursor, out, progress);
 }
 
 void next_row(LineReader& lines, const std::string& of) {

@@ -204,26 +204,35 @@ std::size_t size_of(PlyType type) {
   return sizes[static_cast<std::size_t>(type)];
 }
 
-double ply_value(PlyType type, std::endian order, const std::byte* from) {
+void ply_values(PlyType type, std::endian order, const std::byte* from, std::size_t stride, std::size_t count,
+                double* to) {
+  const auto convert = [&]<typename T>(T) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = static_cast<double>(stored_as<T>(order, from + i * stride));
+  };
   switch (type) {
     case PlyType::int8:
-      return static_cast<double>(stored_as<std::int8_t>(order, from));
+      return convert(std::int8_t{});
     case PlyType::uint8:
-      return static_cast<double>(stored_as<std::uint8_t>(order, from));
+      return convert(std::uint8_t{});
     case PlyType::int16:
-      return static_cast<double>(stored_as<std::int16_t>(order, from));
+      return convert(std::int16_t{});
     case PlyType::uint16:
-      return static_cast<double>(stored_as<std::uint16_t>(order, from));
+      return convert(std::uint16_t{});
     case PlyType::int32:
-      return static_cast<double>(stored_as<std::int32_t>(order, from));
+      return convert(std::int32_t{});
     case PlyType::uint32:
-      return static_cast<double>(stored_as<std::uint32_t>(order, from));
+      return convert(std::uint32_t{});
     case PlyType::float32:
-      return static_cast<double>(stored_as<float>(order, from));
+      return convert(float{});
     case PlyType::float64:
-      break;
+      return convert(double{});
   }
-  return stored_as<double>(order, from);
+}
+
+double ply_value(PlyType type, std::endian order, const std::byte* from) {
+  double value = 0.0;
+  ply_values(type, order, from, 0, 1, &value);
+  return value;
 }
 
 bool PlyElement::has_lists() const {

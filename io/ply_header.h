@@ -16,6 +16,9 @@ enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64
 std::size_t size_of(PlyType type);
 /// A stored value as a double (exact for every type).
 double ply_value(PlyType type, std::endian order, const std::byte* from);
+/// `count` values that stand `stride` bytes apart.
+void ply_values(PlyType type, std::endian order, const std::byte* from, std::size_t stride, std::size_t count,
+                double* to);
 
 struct PlyProperty {
   std::string name;  ///< lower case

@@ -101,10 +101,14 @@ void StoreWriter::add(const PointBlock& block) {
   for (std::size_t i = 0; i < block.size(); ++i) {
     StoredPosition& stored = filling_.positions[before + i];
     stored = stored_position(block.positions[i] - header_.offset, header_.keep);
-    if (watch_ranges) shell_.add(position_of(stored, header_.keep).norm());
+    if (watch_ranges) shell_.add(position_of(stored, header_.keep));
   }
   // Zero has one sign, so that equal points are equal to the bit.
-  for (const float value : block.intensity) filling_.intensity.push_back(value + 0.0F);
+  const std::size_t intensities = filling_.intensity.size();
+  filling_.intensity.resize(intensities + block.intensity.size());
+  std::transform(block.intensity.begin(), block.intensity.end(),
+                 filling_.intensity.begin() + static_cast<std::ptrdiff_t>(intensities),
+                 [](float value) { return value + 0.0F; });
   filling_.colour.insert(filling_.colour.end(), block.colour.begin(), block.colour.end());
 }
 

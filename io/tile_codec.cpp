@@ -29,12 +29,10 @@ unsigned intensity_width(const std::vector<float>& values) {
 
 class ColumnPacker {
  public:
-  ColumnPacker(EncodedTile& tile, std::span<const std::uint32_t> order) : tile_(tile), order_(order) {
-    numbers_.resize(order.size());
-  }
+  ColumnPacker(EncodedTile& tile, std::size_t count) : tile_(tile), numbers_(count) {}
   template <typename NumberOf>
   void pack(std::size_t column, unsigned width, const NumberOf& number_of) {
-    for (std::size_t i = 0; i < order_.size(); ++i) numbers_[i] = number_of(order_[i]);
+    for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = number_of(i);
     tile_.code.width[column] = static_cast<std::uint8_t>(width);
     pack_bits(numbers_, width, tile_.bytes);
     tile_.bytes.resize(column_offset(tile_.code, column + 1));
@@ -42,27 +40,26 @@ class ColumnPacker {
 
  private:
   EncodedTile& tile_;
-  std::span<const std::uint32_t> order_;
   std::vector<std::uint32_t> numbers_;
 };
 
-void pack_positions(const StoredPoints& points, Keep keep, EncodedTile& tile, ColumnPacker& packer) {
+void pack_positions(const StoredPoints& points, std::span<const std::uint32_t> order, Keep keep, EncodedTile& tile,
+                    ColumnPacker& packer) {
+  std::array<std::vector<std::int32_t>, 3> axes;
+  for (auto& axis : axes) axis.resize(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) axes[axis][i] = points.positions[order[i]][axis];
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto value = [&](std::uint32_t i) { return points.positions[i][axis]; };
+    const std::vector<std::int32_t>& values = axes[axis];
     if (keep == Keep::float32) {
-      packer.pack(axis, 32, [&](std::uint32_t i) { return static_cast<std::uint32_t>(value(i)); });
+      packer.pack(axis, 32, [&](std::size_t i) { return static_cast<std::uint32_t>(values[i]); });
       continue;
     }
-    std::int32_t least = points.positions.front()[axis], most = least;
-    for (const StoredPosition& p : points.positions) {
-      least = std::min(least, p[axis]);
-      most = std::max(most, p[axis]);
-    }
-    tile.code.origin[axis] = least;
-    const auto above = [&](std::int32_t v) {
-      return static_cast<std::uint32_t>(v) - static_cast<std::uint32_t>(least);
-    };
-    packer.pack(axis, bits_for(above(most)), [&](std::uint32_t i) { return above(value(i)); });
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const auto zero = static_cast<std::uint32_t>(*least);
+    tile.code.origin[axis] = *least;
+    packer.pack(axis, bits_for(static_cast<std::uint32_t>(*most) - zero),
+                [&](std::size_t i) { return static_cast<std::uint32_t>(values[i]) - zero; });
   }
 }
 
@@ -96,18 +93,18 @@ std::size_t tile_bytes(const TileCode& code) {
 EncodedTile encoded_tile(const StoredPoints& points, std::span<const std::uint32_t> order, Keep keep) {
   EncodedTile tile;
   tile.code.count = static_cast<std::uint32_t>(order.size());
-  ColumnPacker packer(tile, order);
-  pack_positions(points, keep, tile, packer);
+  ColumnPacker packer(tile, order.size());
+  pack_positions(points, order, keep, tile, packer);
   if (!points.intensity.empty()) {
     const unsigned width = intensity_width(points.intensity);
-    packer.pack(intensity_column, width, [&](std::uint32_t i) {
-      const float value = points.intensity[i];
+    packer.pack(intensity_column, width, [&](std::size_t i) {
+      const float value = points.intensity[order[i]];
       return width == 32 ? std::bit_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
     });
   }
   if (!points.colour.empty())
-    packer.pack(colour_column, 24, [&](std::uint32_t i) {
-      const auto& c = points.colour[i];
+    packer.pack(colour_column, 24, [&](std::size_t i) {
+      const auto& c = points.colour[order[i]];
       return std::uint32_t{c[0]} | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16;
     });
   tile.bytes.resize(tile_bytes(tile.code));

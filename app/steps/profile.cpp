@@ -90,7 +90,7 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   const JobChainage stretch = state.stretch();
   Progress mapping = progress.part(0.9, "mapping deviations");
   MapResult mapped = map_deviations(placed_tiles(state), *state.design, stretch.from_m, stretch.to_m,
-                                    state.job.options.profiling, mapping);
+                                    state.job.options.profiling, mapping, state.memory_bytes / 4);
   state.map = std::move(mapped.map);
   ProfileResult result;
   result.points_used = mapped.points_used;

@@ -1,5 +1,7 @@
 #include "core/cleaning/no_returns.h"
 
+#include <algorithm>
+
 namespace adit {
 namespace {
 
@@ -10,18 +12,14 @@ constexpr std::uint64_t least_points = 10;
 
 }  // namespace
 
-float NoReturnShell::nearest_m() const {
-  return largest_m_ - shell_m;
-}
-
-void NoReturnShell::add(float range_m) {
-  ++points_;
-  if (range_m < nearest_m()) return;
+void NoReturnShell::add_far(float range_m) {
   if (range_m > largest_m_) {
     largest_m_ = range_m;
-    farthest_.erase(farthest_.begin(), farthest_.lower_bound(nearest_m()));
+    farthest_.erase(farthest_.begin(), farthest_.lower_bound(largest_m_ - shell_m));
+    const float sieve_m = std::max(largest_m_ - 2.0F * shell_m, 0.0F);
+    squared_nearest_m2_ = sieve_m * sieve_m;
   }
-  if (largest_m_ >= least_shell_range_m) ++farthest_[range_m];
+  if (range_m >= largest_m_ - shell_m && largest_m_ >= least_shell_range_m) ++farthest_[range_m];
 }
 
 std::uint64_t NoReturnShell::count() const {
@@ -34,7 +32,7 @@ std::uint64_t NoReturnShell::count() const {
 }
 
 float NoReturnShell::begins_at_m() const {
-  return count() == 0 ? std::numeric_limits<float>::infinity() : nearest_m();
+  return count() == 0 ? std::numeric_limits<float>::infinity() : largest_m_ - shell_m;
 }
 
 }  // namespace adit

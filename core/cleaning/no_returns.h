@@ -1,6 +1,8 @@
 #pragma once
 // Pulses without an echo that a scanner wrote as points at its largest range.
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -11,7 +13,10 @@ namespace adit {
 /// Memory: the distinct float32 ranges within 1 cm.
 class NoReturnShell {
  public:
-  void add(float range_m);
+  void add(const Eigen::Vector3f& point) {
+    ++points_;
+    if (point.squaredNorm() >= squared_nearest_m2_) add_far(point.norm());
+  }
   /// Points at this range or farther are pulses without an echo: those that share the largest range within 1 cm, when
   /// they are ten or more, over 0.3 % of all, and that range exceeds 10 m - no surface of a tunnel is a sphere about
   /// the scanner. Infinite when there is no such shell.
@@ -20,10 +25,11 @@ class NoReturnShell {
   std::uint64_t count() const;
 
  private:
-  float nearest_m() const;
+  void add_far(float range_m);
 
   std::map<float, std::uint64_t> farthest_;  ///< ranges within the shell below the largest, and how often each came
   float largest_m_ = 0.0F;
+  float squared_nearest_m2_ = 0.0F;  ///< a little below where the shell begins: a sieve
   std::uint64_t points_ = 0;
 };
 

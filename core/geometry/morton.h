@@ -1,6 +1,7 @@
 #pragma once
 // Order along a space-filling (Morton, Z-order) curve: neighbours in the order are neighbours in space.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -17,9 +18,17 @@ constexpr std::uint64_t every_third_bit(std::uint64_t x) {
   return x;
 }
 
+inline constexpr auto thirds_of_11_bits = [] {
+  std::array<std::uint64_t, 2048> table{};
+  for (std::uint64_t i = 0; i < table.size(); ++i) table[i] = every_third_bit(i);
+  return table;
+}();
+
 /// Key of a cell by its low 21 bits an axis.
-constexpr std::uint64_t morton_key(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
-  return every_third_bit(x) | every_third_bit(y) << 1 | every_third_bit(z) << 2;
+inline std::uint64_t morton_key(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
+  const auto& low = thirds_of_11_bits;
+  const auto spread = [&](std::uint64_t v) { return low[v & 2047] | low[v >> 11 & 1023] << 33; };
+  return spread(x) | spread(y) << 1 | spread(z) << 2;
 }
 
 struct KeyedIndex {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iterator>
-#include <optional>
 #include <tuple>
 
 #include "core/foundation/error.h"
@@ -17,32 +15,8 @@
 namespace adit {
 namespace {
 
-constexpr double slab_m = 4.0;  // memory holds the points of one slab
-
-struct TileRef {
-  std::size_t scan = 0;
-  std::size_t tile = 0;
-  double from_m = 0.0;
-  double to_m = 0.0;
-};
-
-/// Chainage interval that a tile may reach, or nothing when it lies beside the axis altogether.
-std::optional<TileRef> tile_reach(const PlacedTiles& scan, std::size_t index, std::size_t tile, const Alignment& axis) {
-  const BoundingBox box = moved(scan.points->box(tile), scan.local_from_scan);
-  if (box.isEmpty()) return std::nullopt;
-  const double radius = 0.55 * box.diagonal().norm() + 0.1;
-  TileRef ref{index, tile, 1e300, -1e300};
-  for (int corner = -1; corner < 8; ++corner) {
-    const Eigen::Vector3d at = corner < 0 ? Eigen::Vector3d(box.center())
-                                          : Eigen::Vector3d(box.corner(static_cast<BoundingBox::CornerType>(corner)));
-    if (const auto point = axis.to_tunnel(at)) {
-      ref.from_m = std::min(ref.from_m, point->s_m - radius);
-      ref.to_m = std::max(ref.to_m, point->s_m + radius);
-    }
-  }
-  if (ref.from_m > ref.to_m) return std::nullopt;
-  return ref;
-}
+constexpr double longest_slab_m = 4.0;
+constexpr double bytes_a_point = 40.0;  // an entry, its copy, and the sort
 
 struct Entry {
   std::uint32_t cell;
@@ -70,33 +44,38 @@ struct Mapper {
     return stretches.front();
   }
 
+  /// Enough of a tile: a surface through its box touches about as many cells as the box's two longer sides say.
+  std::size_t enough_points(const TileRef& ref) const {
+    Eigen::Vector3d sides = scans[ref.scan].points->box(ref.tile).sizes();
+    std::sort(sides.data(), sides.data() + 3);
+    const double cells = (sides[2] / map.step_s_m + 1.0) * (sides[1] / map.step_q_m + 1.0);
+    return static_cast<std::size_t>(std::min(cells * options.most_points_a_cell, 1e9));
+  }
+
   TileEntries entries_of(const TileRef& ref, std::size_t first_row, std::size_t last_row) const {
     TileEntries result;
     const PlacedTiles& scan = scans[ref.scan];
     const double from = map.from_m + static_cast<double>(first_row) * map.step_s_m;
     const double to = map.from_m + static_cast<double>(last_row) * map.step_s_m;
-    std::optional<double> hint;
-    for (const auto& point : scan.points->positions(ref.tile)) {
-      const double range = static_cast<double>(point.norm());
-      if (scan.scanner_at_origin && (range < options.least_range_m || range > options.most_range_m)) continue;
-      const auto at = design.alignment().to_tunnel(scan.local_from_scan * point.cast<double>(), hint);
-      if (!at) continue;
-      hint = at->s_m;
-      if (at->s_m < from || at->s_m >= to) continue;
-      const ProfileFoot foot = design.profile_at(at->s_m).nearest({at->x_m, at->z_m});
+    const auto add = [&](const SlabPoint& point) {
+      const double range = static_cast<double>(point.range_m);
+      if (scan.scanner_at_origin && (range < options.least_range_m || range > options.most_range_m)) return;
+      const TunnelPoint& at = point.at;
+      const ProfileFoot foot = design.profile_at(at.s_m).nearest({at.x_m, at.z_m});
       if (foot.deviation_m < -options.reach_in_m) {
         ++result.inside;
       } else if (foot.deviation_m > options.reach_out_m) {
         ++result.outside;
       } else {
-        const auto row = std::min(static_cast<std::size_t>((at->s_m - map.from_m) / map.step_s_m), last_row - 1);
-        const auto column = static_cast<std::size_t>(stretch_at(at->s_m).q_of(foot) / map.step_q_m);
+        const auto row = std::min(static_cast<std::size_t>((at.s_m - map.from_m) / map.step_s_m), last_row - 1);
+        const auto column = static_cast<std::size_t>(stretch_at(at.s_m).q_of(foot) / map.step_q_m);
         const std::size_t cell = (row - first_row) * map.columns + std::min(column, map.columns - 1);
-        const double place = (at->s_m - map.from_m) / map.step_s_m - static_cast<double>(row);
+        const double place = (at.s_m - map.from_m) / map.step_s_m - static_cast<double>(row);
         result.entries.push_back(
             {static_cast<std::uint32_t>(cell), static_cast<float>(foot.deviation_m), static_cast<float>(place)});
       }
-    }
+    };
+    visit_slab_of_tile(scan, ref.tile, enough_points(ref), design.alignment(), from, to, add);
     return result;
   }
 };
@@ -193,22 +172,47 @@ void fill_map_gaps(DeviationMap& map, const Mapper& mapper, double gap_m) {
       4);
 }
 
-std::vector<TileRef> tiles_of(const std::vector<PlacedTiles>& scans, const Alignment& axis) {
-  std::vector<TileRef> tiles;
-  for (std::size_t i = 0; i < scans.size(); ++i)
-    for (std::size_t t = 0; t < scans[i].points->tile_count(); ++t)
-      if (const auto ref = tile_reach(scans[i], i, t, axis)) tiles.push_back(*ref);
-  return tiles;
+/// About how many points each row will get.
+std::vector<double> points_of_rows(const Mapper& mapper, const ChainageIndex& index) {
+  const DeviationMap& map = mapper.map;
+  std::vector<double> points(map.rows, 0.0);
+  for (const TileRef& ref : index.between(map.from_m, map.to_m)) {
+    const std::size_t count = std::min(mapper.enough_points(ref), mapper.scans[ref.scan].points->point_count(ref.tile));
+    const auto row_of = [&](double s_m) {
+      return static_cast<std::size_t>(
+          std::clamp((s_m - map.from_m) / map.step_s_m, 0.0, static_cast<double>(map.rows - 1)));
+    };
+    const std::size_t first = row_of(ref.from_m), last = row_of(ref.to_m);
+    // Its reach is wider than its points: half of it on either side may be empty.
+    const double each = 2.0 * static_cast<double>(count) / ((ref.to_m - ref.from_m) / map.step_s_m + 1.0);
+    for (std::size_t row = first; row <= last; ++row) points[row] += each;
+  }
+  return points;
+}
+
+/// First row of each slab, and one past the last: slabs whose points fit the memory, one row at the least.
+std::vector<std::size_t> slabs(const Mapper& mapper, const ChainageIndex& index, std::uint64_t memory_bytes) {
+  const std::vector<double> points = points_of_rows(mapper, index);
+  const double most_points = static_cast<double>(memory_bytes) / bytes_a_point;
+  std::vector<std::size_t> begins{0};
+  double sum = 0.0;
+  for (std::size_t row = 0; row < points.size(); ++row) {
+    const bool too_long = static_cast<double>(row + 1 - begins.back()) * mapper.map.step_s_m > longest_slab_m + 1e-9;
+    if (row > begins.back() && (too_long || sum + points[row] > most_points)) {
+      begins.push_back(row);
+      sum = 0.0;
+    }
+    sum += points[row];
+  }
+  begins.push_back(points.size());
+  return begins;
 }
 
 /// Fills the rows [first, last) of the map from the tiles that may reach them.
-void map_slab(MapResult& result, const Mapper& mapper, const std::vector<TileRef>& tiles, std::size_t first,
-              std::size_t last, const Progress& progress) {
-  const double from = result.map.row_chainage(first) - result.map.step_s_m;
-  const double to = result.map.row_chainage(last - 1) + result.map.step_s_m;
-  std::vector<TileRef> here;
-  std::copy_if(tiles.begin(), tiles.end(), std::back_inserter(here),
-               [&](const TileRef& tile) { return tile.to_m >= from && tile.from_m <= to; });
+void map_slab(MapResult& result, const Mapper& mapper, const ChainageIndex& index, std::size_t first, std::size_t last,
+              const Progress& progress) {
+  const std::vector<TileRef> here = index.between(result.map.row_chainage(first) - result.map.step_s_m,
+                                                  result.map.row_chainage(last - 1) + result.map.step_s_m);
   std::vector<TileEntries> parts(here.size());
   parallel_for_each_index(
       here.size(),
@@ -218,8 +222,9 @@ void map_slab(MapResult& result, const Mapper& mapper, const std::vector<TileRef
       },
       1);
   std::vector<Entry> entries;
-  for (const TileEntries& part : parts) {
+  for (TileEntries& part : parts) {
     entries.insert(entries.end(), part.entries.begin(), part.entries.end());
+    std::vector<Entry>().swap(part.entries);
     result.points_inside += part.inside;
     result.points_outside += part.outside;
   }
@@ -240,17 +245,23 @@ Finding objects_finding(const ObjectCells& objects, double cell_area_m2) {
 }  // namespace
 
 MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunnel& design, double from_m, double to_m,
-                         const ProfilingOptions& options, Progress& progress) {
+                         const ProfilingOptions& options, Progress& progress, std::uint64_t memory_bytes) {
+  const ChainageIndex index(scans, design.alignment());
+  return map_deviations(scans, index, design, from_m, to_m, options, progress, memory_bytes);
+}
+
+MapResult map_deviations(const std::vector<PlacedTiles>& scans, const ChainageIndex& index, const DesignTunnel& design,
+                         double from_m, double to_m, const ProfilingOptions& options, Progress& progress,
+                         std::uint64_t memory_bytes) {
   std::vector<ProfileStretch> stretches;
   for (const auto& stepped : design.profiles()) stretches.emplace_back(stepped.profile);
   MapResult result;
   result.map = empty_map(stretches, from_m, to_m, options);
   const Mapper mapper{scans, design, options, result.map, stretches};
-  const std::vector<TileRef> tiles = tiles_of(scans, design.alignment());
-  const auto slab_rows = static_cast<std::size_t>(std::max(1.0, std::ceil(slab_m / result.map.step_s_m)));
-  for (std::size_t first = 0; first < result.map.rows; first += slab_rows) {
-    progress.step(first, result.map.rows);
-    map_slab(result, mapper, tiles, first, std::min(first + slab_rows, result.map.rows), progress);
+  const std::vector<std::size_t> begins = slabs(mapper, index, memory_bytes);
+  for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
+    progress.step(begins[i], result.map.rows);
+    map_slab(result, mapper, index, begins[i], begins[i + 1], progress);
   }
   if (result.points_used == 0)
     throw Error("no scan point lies near the design between chainage " + std::to_string(from_m) + " and " +
@@ -260,6 +271,13 @@ MapResult map_deviations(const std::vector<PlacedTiles>& scans, const DesignTunn
   fill_map_gaps(result.map, mapper, options.gap_m);
   if (objects.cells > 0) result.findings.push_back(objects_finding(objects, result.map.step_s_m * result.map.step_q_m));
   return result;
+}
+
+Section cut_section(const std::vector<PlacedTiles>& scans, const ChainageIndex& index, const DesignTunnel& design,
+                    double chainage_m, const ProfilingOptions& options, Progress& progress) {
+  const MapResult mapped = map_deviations(scans, index, design, chainage_m - options.slice_m,
+                                          chainage_m + options.slice_m, options, progress);
+  return cut_section(mapped.map, design, chainage_m, options);
 }
 
 }  // namespace adit

@@ -77,10 +77,10 @@ TEST(VoxelGrid, AStrayPointFarAwayIsRefused) {
 
 TEST(NoReturns, AShellOfPointsAtTheLargestRangeIsSeen) {
   NoReturnShell shell;
-  for (int i = 0; i < 1000; ++i) shell.add(2.0F + 0.01F * static_cast<float>(i));
+  for (int i = 0; i < 1000; ++i) shell.add({0.0F, 2.0F + 0.01F * static_cast<float>(i), 0.0F});
   EXPECT_EQ(shell.count(), 0U);  // a single farthest point is a point
   EXPECT_EQ(shell.begins_at_m(), std::numeric_limits<float>::infinity());
-  for (int i = 0; i < 10; ++i) shell.add(32.76F);
+  for (int i = 0; i < 10; ++i) shell.add({0.0F, 32.76F, 0.0F});
   EXPECT_EQ(shell.count(), 10U);
   EXPECT_GT(32.76F, shell.begins_at_m());
   EXPECT_LT(11.99F, shell.begins_at_m());
@@ -88,7 +88,7 @@ TEST(NoReturns, AShellOfPointsAtTheLargestRangeIsSeen) {
 
 TEST(NoReturns, NearSpheresAreRock) {
   NoReturnShell shell;
-  for (int i = 0; i < 1000; ++i) shell.add(i % 2 == 0 ? 5.0F : 9.0F);
+  for (int i = 0; i < 1000; ++i) shell.add({0.0F, i % 2 == 0 ? 5.0F : 9.0F, 0.0F});
   EXPECT_EQ(shell.count(), 0U);
 }
 

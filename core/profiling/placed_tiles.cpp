@@ -1,0 +1,121 @@
+#include "core/profiling/placed_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/foundation/parallel.h"
+
+namespace adit {
+namespace {
+
+constexpr double margin_m = 0.1;
+
+/// Chainages that a sphere may reach, from its centre alone; nothing where the axis bends too much for that.
+std::optional<TileRef> reach_of_sphere(const Eigen::Vector3d& centre, double radius_m, const Alignment& axis) {
+  const auto at = axis.to_tunnel(centre);
+  if (!at) return std::nullopt;
+  const double curvature = std::abs(axis.horizontal().at(at->s_m).curvature_per_m);
+  const double squeeze = 1.0 - 1.2 * curvature * (std::abs(at->x_m) + radius_m);  // 1.2: clothoids bend on
+  if (squeeze < 0.2) return std::nullopt;
+  const double reach_m = radius_m / squeeze + margin_m;
+  return TileRef{0, 0, at->s_m - reach_m, at->s_m + reach_m};
+}
+
+/// The same from centre and corners; nothing when the box lies beside the axis altogether.
+std::optional<TileRef> reach_of_box(const BoundingBox& box, const Alignment& axis) {
+  const double radius_m = 0.55 * box.diagonal().norm() + margin_m;
+  TileRef ref{0, 0, 1e300, -1e300};
+  for (int corner = -1; corner < 8; ++corner) {
+    const Eigen::Vector3d at = corner < 0 ? Eigen::Vector3d(box.center())
+                                          : Eigen::Vector3d(box.corner(static_cast<BoundingBox::CornerType>(corner)));
+    if (const auto point = axis.to_tunnel(at)) {
+      ref.from_m = std::min(ref.from_m, point->s_m - radius_m);
+      ref.to_m = std::max(ref.to_m, point->s_m + radius_m);
+    }
+  }
+  if (ref.from_m > ref.to_m) return std::nullopt;
+  return ref;
+}
+
+std::optional<TileRef> tile_reach(const PlacedTiles& scan, std::size_t tile, const Alignment& axis) {
+  const BoundingBox in_scan = scan.points->box(tile);
+  if (in_scan.isEmpty()) return std::nullopt;
+  const Eigen::Vector3d centre = scan.local_from_scan * Eigen::Vector3d(in_scan.center());
+  if (const auto reach = reach_of_sphere(centre, 0.5 * in_scan.diagonal().norm(), axis)) return reach;
+  return reach_of_box(moved(in_scan, scan.local_from_scan), axis);
+}
+
+/// parts[i] = part(i) for all i in parallel, then one behind the other.
+template <typename Value, typename Part>
+std::vector<Value> joined_parts(std::size_t n, const Part& part) {
+  std::vector<std::vector<Value>> parts(n);
+  parallel_for_each_index(
+      n, [&](std::size_t i) { parts[i] = part(i); }, 1);
+  std::vector<Value> all;
+  for (const std::vector<Value>& one : parts) all.insert(all.end(), one.begin(), one.end());
+  return all;
+}
+
+}  // namespace
+
+ChainageIndex::ChainageIndex(const std::vector<PlacedTiles>& scans, const Alignment& axis) {
+  for (std::size_t s = 0; s < scans.size(); ++s) {
+    std::vector<std::optional<TileRef>> reaches(scans[s].points->tile_count());
+    parallel_for_each_index(
+        reaches.size(), [&](std::size_t t) { reaches[t] = tile_reach(scans[s], t, axis); }, 64);
+    for (std::size_t t = 0; t < reaches.size(); ++t)
+      if (reaches[t]) tiles_.push_back({s, t, reaches[t]->from_m, reaches[t]->to_m});
+  }
+}
+
+std::vector<TileRef> ChainageIndex::between(double from_m, double to_m) const {
+  std::vector<TileRef> here;
+  for (const TileRef& tile : tiles_)
+    if (tile.to_m >= from_m && tile.from_m <= to_m) here.push_back(tile);
+  return here;
+}
+
+void visit_slab_of_tile(const PlacedTiles& scan, std::size_t tile, std::size_t prefix, const Alignment& axis,
+                        double from_m, double to_m, const std::function<void(const SlabPoint&)>& visit) {
+  std::optional<double> hint;
+  for (const auto& point : scan.points->positions(tile, prefix)) {
+    const auto at = axis.to_tunnel(scan.local_from_scan * point.cast<double>(), hint);
+    if (!at) continue;
+    hint = at->s_m;
+    if (at->s_m >= from_m && at->s_m < to_m) visit({*at, point.norm()});
+  }
+}
+
+std::vector<SlabPoint> points_of_slab(const std::vector<PlacedTiles>& scans, const ChainageIndex& index,
+                                      const Alignment& axis, double from_m, double to_m, const Progress& progress) {
+  const std::vector<TileRef> tiles = index.between(from_m, to_m);
+  return joined_parts<SlabPoint>(tiles.size(), [&](std::size_t i) {
+    progress.check();
+    std::vector<SlabPoint> points;
+    visit_slab_of_tile(scans[tiles[i].scan], tiles[i].tile, all_points, axis, from_m, to_m,
+                       [&](const SlabPoint& point) { points.push_back(point); });
+    return points;
+  });
+}
+
+std::vector<Eigen::Vector3d> points_in_box(const std::vector<PlacedTiles>& scans, const BoundingBox& box,
+                                           const Progress& progress) {
+  std::vector<Eigen::Vector3d> all;
+  for (const PlacedTiles& scan : scans) {
+    const auto points = joined_parts<Eigen::Vector3d>(scan.points->tile_count(), [&](std::size_t tile) {
+      progress.check();
+      std::vector<Eigen::Vector3d> inside;
+      if (!moved(scan.points->box(tile), scan.local_from_scan).intersects(box)) return inside;
+      for (const auto& p : scan.points->positions(tile)) {
+        const Eigen::Vector3d local = scan.local_from_scan * p.cast<double>();
+        if (box.contains(local)) inside.push_back(local);
+      }
+      return inside;
+    });
+    all.insert(all.end(), points.begin(), points.end());
+  }
+  return all;
+}
+
+}  // namespace adit

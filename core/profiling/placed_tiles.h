@@ -1,0 +1,63 @@
+#pragma once
+// Scans in their places, and which of their tiles reach which chainages.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/design/alignment.h"
+#include "core/foundation/progress.h"
+#include "core/geometry/pose.h"
+#include "core/geometry/tile_source.h"
+
+namespace adit {
+
+/// A scan with its place: local frame = site minus project origin.
+struct PlacedTiles {
+  std::string name;
+  std::shared_ptr<const TileSource> points;
+  Pose local_from_scan = Pose::Identity();
+  bool scanner_at_origin = true;  ///< false: ranges are not limited
+};
+
+/// A tile and the chainages it may reach.
+struct TileRef {
+  std::size_t scan = 0;
+  std::size_t tile = 0;
+  double from_m = 0.0;
+  double to_m = 0.0;
+};
+
+/// Made once for scans and an axis (local frame), asked often. Tiles that lie beside the axis altogether are not in it.
+class ChainageIndex {
+ public:
+  ChainageIndex(const std::vector<PlacedTiles>& scans, const Alignment& axis);
+  /// Tiles that may hold points of the chainages [from, to], in the order of scans and tiles.
+  std::vector<TileRef> between(double from_m, double to_m) const;
+  const std::vector<TileRef>& all() const { return tiles_; }
+
+ private:
+  std::vector<TileRef> tiles_;
+};
+
+/// A point with its place on the axis.
+struct SlabPoint {
+  TunnelPoint at;
+  float range_m = 0.0F;  ///< from the scanner
+};
+
+/// The points of a tile's first `prefix` whose chainage is in [from, to), in the order of the tile.
+void visit_slab_of_tile(const PlacedTiles& scan, std::size_t tile, std::size_t prefix, const Alignment& axis,
+                        double from_m, double to_m, const std::function<void(const SlabPoint&)>& visit);
+
+/// Every point whose chainage is in [from, to), scan by scan, tile by tile; tiles are read in parallel.
+std::vector<SlabPoint> points_of_slab(const std::vector<PlacedTiles>& scans, const ChainageIndex& index,
+                                      const Alignment& axis, double from_m, double to_m, const Progress& progress);
+
+/// Every point within a box of the local frame [m], in the same order.
+std::vector<Eigen::Vector3d> points_in_box(const std::vector<PlacedTiles>& scans, const BoundingBox& box,
+                                           const Progress& progress);
+
+}  // namespace adit
