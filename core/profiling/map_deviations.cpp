@@ -52,11 +52,10 @@ struct Mapper {
     return static_cast<std::size_t>(std::min(cells * options.most_points_a_cell, 1e9));
   }
 
-  TileEntries entries_of(const TileRef& ref, std::size_t first_row, std::size_t last_row) const {
+  TileEntries entries_of(const TileRef& ref, const TunnelFrames& frames, std::size_t first_row,
+                         std::size_t last_row) const {
     TileEntries result;
     const PlacedTiles& scan = scans[ref.scan];
-    const double from = map.from_m + static_cast<double>(first_row) * map.step_s_m;
-    const double to = map.from_m + static_cast<double>(last_row) * map.step_s_m;
     const auto add = [&](const SlabPoint& point) {
       const double range = static_cast<double>(point.range_m);
       if (scan.scanner_at_origin && (range < options.least_range_m || range > options.most_range_m)) return;
@@ -75,7 +74,7 @@ struct Mapper {
             {static_cast<std::uint32_t>(cell), static_cast<float>(foot.deviation_m), static_cast<float>(place)});
       }
     };
-    visit_slab_of_tile(scan, ref.tile, enough_points(ref), design.alignment(), from, to, add);
+    visit_slab_of_tile(scans, ref, enough_points(ref), frames, add);
     return result;
   }
 };
@@ -213,12 +212,15 @@ void map_slab(MapResult& result, const Mapper& mapper, const ChainageIndex& inde
               const Progress& progress) {
   const std::vector<TileRef> here = index.between(result.map.row_chainage(first) - result.map.step_s_m,
                                                   result.map.row_chainage(last - 1) + result.map.step_s_m);
+  const TunnelFrames frames(mapper.design.alignment(),
+                            result.map.from_m + static_cast<double>(first) * result.map.step_s_m,
+                            result.map.from_m + static_cast<double>(last) * result.map.step_s_m);
   std::vector<TileEntries> parts(here.size());
   parallel_for_each_index(
       here.size(),
       [&](std::size_t k) {
         progress.check();
-        parts[k] = mapper.entries_of(here[k], first, last);
+        parts[k] = mapper.entries_of(here[k], frames, first, last);
       },
       1);
   std::vector<Entry> entries;

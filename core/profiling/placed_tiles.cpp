@@ -76,25 +76,14 @@ std::vector<TileRef> ChainageIndex::between(double from_m, double to_m) const {
   return here;
 }
 
-void visit_slab_of_tile(const PlacedTiles& scan, std::size_t tile, std::size_t prefix, const Alignment& axis,
-                        double from_m, double to_m, const std::function<void(const SlabPoint&)>& visit) {
-  std::optional<double> hint;
-  for (const auto& point : scan.points->positions(tile, prefix)) {
-    const auto at = axis.to_tunnel(scan.local_from_scan * point.cast<double>(), hint);
-    if (!at) continue;
-    hint = at->s_m;
-    if (at->s_m >= from_m && at->s_m < to_m) visit({*at, point.norm()});
-  }
-}
-
 std::vector<SlabPoint> points_of_slab(const std::vector<PlacedTiles>& scans, const ChainageIndex& index,
                                       const Alignment& axis, double from_m, double to_m, const Progress& progress) {
   const std::vector<TileRef> tiles = index.between(from_m, to_m);
+  const TunnelFrames frames(axis, from_m, to_m);
   return joined_parts<SlabPoint>(tiles.size(), [&](std::size_t i) {
     progress.check();
     std::vector<SlabPoint> points;
-    visit_slab_of_tile(scans[tiles[i].scan], tiles[i].tile, all_points, axis, from_m, to_m,
-                       [&](const SlabPoint& point) { points.push_back(point); });
+    visit_slab_of_tile(scans, tiles[i], all_points, frames, [&](const SlabPoint& point) { points.push_back(point); });
     return points;
   });
 }

@@ -2,7 +2,6 @@
 // Scans in their places, and which of their tiles reach which chainages.
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "core/foundation/progress.h"
 #include "core/geometry/pose.h"
 #include "core/geometry/tile_source.h"
+#include "core/profiling/tunnel_frames.h"
 
 namespace adit {
 
@@ -48,9 +48,18 @@ struct SlabPoint {
   float range_m = 0.0F;  ///< from the scanner
 };
 
-/// The points of a tile's first `prefix` whose chainage is in [from, to), in the order of the tile.
-void visit_slab_of_tile(const PlacedTiles& scan, std::size_t tile, std::size_t prefix, const Alignment& axis,
-                        double from_m, double to_m, const std::function<void(const SlabPoint&)>& visit);
+/// Calls visit(SlabPoint) for the points of a tile's first `prefix` that lie within the stretch of the frames, in the
+/// order of the tile.
+template <typename Visit>
+void visit_slab_of_tile(const std::vector<PlacedTiles>& scans, const TileRef& ref, std::size_t prefix,
+                        const TunnelFrames& frames, const Visit& visit) {
+  const PlacedTiles& scan = scans[ref.scan];
+  const Eigen::Matrix3d turn = scan.local_from_scan.linear();
+  const Eigen::Vector3d shift = scan.local_from_scan.translation();
+  const double middle_m = 0.5 * (ref.from_m + ref.to_m);
+  for (const auto& point : scan.points->positions(ref.tile, prefix))
+    if (const auto at = frames.to_tunnel(turn * point.cast<double>() + shift, middle_m)) visit({*at, point.norm()});
+}
 
 /// Every point whose chainage is in [from, to), scan by scan, tile by tile; tiles are read in parallel.
 std::vector<SlabPoint> points_of_slab(const std::vector<PlacedTiles>& scans, const ChainageIndex& index,
