@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/foundation/angle.h"
 #include "core/foundation/parallel.h"
@@ -42,44 +43,78 @@ double albedo(Surface surface) {
   }
 }
 
+/// Direction of a pulse in the scanner's frame.
+Eigen::Vector3d along(double azimuth_rad, double elevation_rad) {
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
+          std::sin(elevation_rad)};
+}
+
+struct Echo {
+  double range_m;
+  float intensity;
+};
+
+struct Shot {
+  const RockTunnel& tunnel;
+  const Pose& design_from_scan;
+  const ScannerOptions& options;
+  const std::vector<Eigen::Vector2d>& people;
+  Random random;
+
+  /// What the scanner measures of a pulse; empty when nothing comes back.
+  std::optional<Echo> echo(std::uint64_t pulse, double azimuth, double elevation) const {
+    const Eigen::Vector3d true_direction = along(azimuth + options.angle_sigma_rad * random.normal(4 * pulse),
+                                                 elevation + options.angle_sigma_rad * random.normal(4 * pulse + 1));
+    const auto hit = tunnel.cast(design_from_scan.translation(), design_from_scan.linear() * true_direction,
+                                 options.most_range_m, people);
+    if (!hit || hit->range_m < options.least_range_m) return std::nullopt;
+    const double brightness =
+        std::min(1.0, albedo(hit->surface) * hit->incidence_cosine * std::min(1.0, std::pow(8.0 / hit->range_m, 1.5)) +
+                          0.01 * random.normal(4 * pulse + 2));
+    const double lost = options.dropout / std::clamp(brightness, 0.01, 1.0);
+    if (random.uniform(8 * pulse + 5) < lost) return std::nullopt;
+    const double sigma = options.range_sigma_m * (1.0 + 0.5 * (1.0 / std::max(hit->incidence_cosine, 0.1) - 1.0));
+    return Echo{hit->range_m + sigma * random.normal(4 * pulse + 3), static_cast<float>(std::max(brightness, 0.0))};
+  }
+};
+
 }  // namespace
+
+void scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const ScannerOptions& options,
+                 const std::vector<Eigen::Vector2d>& people, const std::function<void(const PointCloud&)>& take,
+                 Progress& progress) {
+  constexpr std::size_t columns_at_once = 128;
+  const Raster raster = raster_of(options);
+  const Shot shot{tunnel, design_from_scan, options, people, Random(options.seed, 77)};
+  const double turn = 2.0 * pi / static_cast<double>(raster.columns);
+  for (std::size_t first = 0; first < raster.columns; first += columns_at_once) {
+    std::vector<PointCloud> columns(std::min(columns_at_once, raster.columns - first));
+    parallel_for_each_index(
+        columns.size(),
+        [&](std::size_t k) {
+          const std::size_t c = first + k;
+          progress.step(c, raster.columns);
+          for (std::size_t r = 0; r < raster.rows; ++r) {
+            const double azimuth = turn * static_cast<double>(c);
+            const double elevation = raster.lowest_rad + raster.step_rad * (static_cast<double>(r) + 0.5);
+            const auto echo = shot.echo(c * raster.rows + r, azimuth, elevation);
+            if (!echo) continue;
+            columns[k].points.push_back((echo->range_m * along(azimuth, elevation)).cast<float>());
+            columns[k].intensity.push_back(echo->intensity);
+          }
+        },
+        4);
+    PointCloud part;
+    for (const PointCloud& column : columns) append(part, column);
+    take(part);
+  }
+}
 
 PointCloud scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const ScannerOptions& options,
                        const std::vector<Eigen::Vector2d>& people, Progress& progress) {
-  const Raster raster = raster_of(options);
-  const Random random(options.seed, 77);
-  const double turn = 2.0 * pi / static_cast<double>(raster.columns);
-  std::vector<PointCloud> columns(raster.columns);
-  parallel_blocks(raster.columns, 16, [&](std::size_t begin, std::size_t end) {
-    progress.step(begin, raster.columns);
-    for (std::size_t c = begin; c < end; ++c) {
-      for (std::size_t r = 0; r < raster.rows; ++r) {
-        const std::uint64_t pulse = c * raster.rows + r;
-        const double azimuth = turn * static_cast<double>(c);
-        const double elevation = raster.lowest_rad + raster.step_rad * (static_cast<double>(r) + 0.5);
-        const auto along = [](double a, double e) {
-          return Eigen::Vector3d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
-        };
-        const Eigen::Vector3d true_direction =
-            along(azimuth + options.angle_sigma_rad * random.normal(4 * pulse),
-                  elevation + options.angle_sigma_rad * random.normal(4 * pulse + 1));
-        const auto hit = tunnel.cast(design_from_scan.translation(), design_from_scan.linear() * true_direction,
-                                     options.most_range_m, people);
-        if (!hit || hit->range_m < options.least_range_m) continue;
-        const double brightness = std::min(
-            1.0, albedo(hit->surface) * hit->incidence_cosine * std::min(1.0, std::pow(8.0 / hit->range_m, 1.5)) +
-                     0.01 * random.normal(4 * pulse + 2));
-        const double lost = options.dropout / std::clamp(brightness, 0.01, 1.0);
-        if (random.uniform(8 * pulse + 5) < lost) continue;
-        const double sigma = options.range_sigma_m * (1.0 + 0.5 * (1.0 / std::max(hit->incidence_cosine, 0.1) - 1.0));
-        const double range = hit->range_m + sigma * random.normal(4 * pulse + 3);
-        columns[c].points.push_back((range * along(azimuth, elevation)).cast<float>());
-        columns[c].intensity.push_back(static_cast<float>(std::max(brightness, 0.0)));
-      }
-    }
-  });
   PointCloud scan;
-  for (const PointCloud& column : columns) append(scan, column);
+  scan_tunnel(
+      tunnel, design_from_scan, options, people, [&](const PointCloud& part) { append(scan, part); }, progress);
   return scan;
 }
 

@@ -2,6 +2,7 @@
 // A laser scanner with two rotation axes in a simulated tunnel.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/foundation/progress.h"
@@ -22,7 +23,13 @@ struct ScannerOptions {
   double dropout = 0.004;  ///< lost at square incidence and short range; more when dim
 };
 
-/// One scan in its own frame: x forward, z up along the standing axis, column by column. intensity in [0, 1].
+/// One scan in its own frame: x forward, z up along the standing axis, column by column. intensity in [0, 1]. Handed to
+/// `take` a few columns at a time, in order: memory does not grow with the scan.
+void scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const ScannerOptions& options,
+                 const std::vector<Eigen::Vector2d>& people, const std::function<void(const PointCloud&)>& take,
+                 Progress& progress);
+
+/// The same in memory.
 PointCloud scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const ScannerOptions& options,
                        const std::vector<Eigen::Vector2d>& people, Progress& progress);
 

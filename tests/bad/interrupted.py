@@ -4,8 +4,10 @@
 Ctrl-C ends with exit code 130 within LONGEST_S, says one line and leaves no temporary file. After either, a run that is
 let be ends with the same results as one that was never disturbed.
 """
+import json
 import os
 import pathlib
+import random
 import signal
 import subprocess
 import sys
@@ -106,6 +108,36 @@ def disturb_demos(program, plain, folder, tally):
             tally.check("%s in a demo, moment %d" % (by.name, k + 1), faults)
 
 
+def stores(job):
+    return {p.name: p.read_bytes() for p in sorted((job / "out" / "import").glob("*.points"))}
+
+
+def kill_imports(program, folder, tally):
+    """Ten kills of one import at random moments, one after the other, then the run: the bytes of one that was let be."""
+    random.seed(4)
+    plain = folder / "import_plain"
+    small_job.adit(program, "demo", plain, "--points", "300000", "--stations", "2", "--no-run", "--quiet")
+    job_json = json.loads((plain / "job.json").read_text())
+    for scan in job_json["scans"]:  # text takes longer to read
+        text = scan["file"].replace(".ply", ".xyz")
+        small_job.adit(program, "convert", plain / scan["file"], plain / text, "--quiet")
+        scan["file"] = text
+    (plain / "job.json").write_text(json.dumps(job_json))
+    calm = small_job.copied(plain, folder / "import_calm")
+    whole_s = duration([program, "import", str(calm), "--quiet"])
+    small_job.run(program, calm)
+    job = small_job.copied(plain, folder / "import_killed")
+    killed = 0
+    for _ in range(10):
+        code, _, _ = disturbed([program, "import", str(job), "--quiet"], random.uniform(0.05, 1.0) * whole_s, signal.SIGKILL)
+        killed += code == -signal.SIGKILL
+    small_job.run(program, job)
+    tally.check("ten imports killed", ["only %d were" % killed if killed < 3 else "",
+                                       "other stores" if stores(job) != stores(calm) else "",
+                                       "other results" if small_job.lasting(job) != small_job.lasting(calm) else "",
+                                       *["left " + name for name in small_job.temporaries(job)]])
+
+
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
     tally = small_job.Tally()
@@ -119,6 +151,7 @@ def main():
         disturb_runs(program, plain, expected, folder, tally)
         disturb_one_job_often(program, plain, expected, folder, tally)
         disturb_demos(program, plain, folder, tally)
+        kill_imports(program, folder, tally)
     return tally.end()
 
 

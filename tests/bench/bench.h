@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <string>
 
 #include "tests/core/sample_tunnel.h"
 
@@ -22,5 +23,9 @@ inline double seconds_of(int runs, const std::function<void()>& work) {
 void bench_registration();
 void bench_io();
 void bench_profiling();
+/// A row: millions of points, seconds for the index, the first section, a thousand sections.
+void bench_sections(const std::string& job);
+/// A row: the library's own decoding loop over an E57 or LAZ file, millions of points a second.
+void bench_decoding(const std::string& file);
 
 }  // namespace adit::bench

@@ -8,6 +8,7 @@
 
 #include "io/point_store.h"
 #include "io/scan_formats.h"
+#include "io/store_writer.h"
 #include "tests/bench/bench.h"
 #include "tests/temporary_folder.h"
 
@@ -39,7 +40,7 @@ void bench_io() {
     std::printf("| %s | %.1f | %.1f | %s |\n", name + 2, millions / write, millions / read, peer);
   }
   const auto store = folder / "a.points";
-  const double write = seconds_of(3, [&] { io::write_point_store(store, scan, "", progress); });
+  const double write = seconds_of(3, [&] { io::write_point_store(store, scan, {}, progress); });
   const double read = seconds_of(3, [&] {
     const io::PointStore points(store);
     for (std::size_t t = 0; t < points.tile_count(); ++t) points.read(t);

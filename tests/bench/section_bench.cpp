@@ -1,0 +1,36 @@
+// Sections straight from the stored points of a job that has been registered.
+
+#include <cstdio>
+
+#include "app/placed_tiles.h"
+#include "app/run_job.h"
+#include "core/foundation/error.h"
+#include "tests/bench/bench.h"
+
+namespace adit::bench {
+
+void bench_sections(const std::string& job) {
+  Progress progress;
+  app::RunOptions options;
+  options.only_take_up = true;
+  const auto state = app::run_job(job, options, progress);
+  if (!state->design || state->results.registration.scans.empty())
+    throw Error("the job is not registered or has no design", job, "run adit register first");
+  const auto scans = app::placed_tiles(*state);
+  std::uint64_t points = 0;
+  for (const auto& store : state->stores) points += store->points();
+  const JobChainage stretch = state->stretch();
+  const double middle_m = 0.5 * (stretch.from_m + stretch.to_m);
+  const ProfilingOptions& profiling = state->job.options.profiling;
+  const double indexing = seconds_of(1, [&] { ChainageIndex(scans, state->design->alignment()); });
+  const ChainageIndex index(scans, state->design->alignment());
+  const auto cut = [&](double s) { return cut_section(scans, index, *state->design, s, profiling, progress); };
+  const double first = seconds_of(1, [&] { cut(middle_m); });
+  constexpr int many = 1000;
+  const double thousand = seconds_of(1, [&] {
+    for (int i = 0; i < many; ++i) cut(stretch.from_m + (stretch.to_m - stretch.from_m) * (i + 0.5) / many);
+  });
+  std::printf("| %.1f | %.3f | %.3f | %.1f |\n", static_cast<double>(points) / 1e6, indexing, first, thousand);
+}
+
+}  // namespace adit::bench
