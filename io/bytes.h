@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace adit::io {
@@ -33,6 +34,16 @@ T little(const std::byte* from) {
 template <typename T>
 T big(const std::byte* from) {
   return stored_as<T>(std::endian::big, from);
+}
+
+/// Puts a number behind bytes, in the given order.
+template <typename T>
+void append_stored(std::string& bytes, T value, std::endian order) {
+  char stored[sizeof(T)];
+  std::memcpy(stored, &value, sizeof(T));
+  if (order != std::endian::native)
+    for (std::size_t i = 0; 2 * i + 1 < sizeof(T); ++i) std::swap(stored[i], stored[sizeof(T) - 1 - i]);
+  bytes.append(stored, sizeof(T));
 }
 
 /// A regular file opened for reading. Every failure is an Error that names the file and, where there is one, the byte.

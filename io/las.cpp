@@ -1,8 +1,10 @@
 #include "io/las.h"
 
 #include "io/bytes.h"
+#include "io/las_description.h"
 #include "io/las_header.h"
 #include "io/point_stream.h"
+#include "io/scan_sample.h"
 
 namespace adit::io {
 namespace {
@@ -14,6 +16,12 @@ Attributes attributes_of(const LasHeader& header) {
   attributes.intensity = true;
   attributes.colour = las_point_format(header.point_format).colour_offset.has_value();
   return attributes;
+}
+
+Eigen::Vector3d position_in(const LasHeader& header, const std::byte* record) {
+  const Eigen::Array3d steps(little<std::int32_t>(record), little<std::int32_t>(record + 4),
+                             little<std::int32_t>(record + 8));
+  return steps * header.scale.array() + header.offset.array();
 }
 
 /// Colours should fill 16 bits, but many files hold plain bytes: then no value is over 255.
@@ -49,10 +57,7 @@ void stream_las(const std::filesystem::path& path, const ReadOptions& options, S
   for (std::uint64_t i = 0; i < header.points; ++i) {
     if (i % points_between_checks == 0) progress.step(i, header.points);
     const std::byte* record = cursor.take(header.record_bytes);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto k = static_cast<Eigen::Index>(axis);
-      point.position[k] = little<std::int32_t>(record + 4 * axis) * header.scale[k] + header.offset[k];
-    }
+    point.position = position_in(header, record);
     point.intensity = static_cast<float>(little<std::uint16_t>(record + las_intensity_offset));
     if (attributes.colour)
       for (std::size_t c = 0; c < 3; ++c)
@@ -62,18 +67,22 @@ void stream_las(const std::filesystem::path& path, const ReadOptions& options, S
   out.end();
 }
 
-ScanFileSummary summarise_las(const std::filesystem::path& path) {
+ScanFileSummary summarise_las(const std::filesystem::path& path, Progress&) {
   const InputFile file(path);
   const LasHeader header = read_las_header(file);
   ScanFileSummary summary;
   summary.format =
       "LAS 1." + std::to_string(header.minor_version) + " point format " + std::to_string(header.point_format);
+  summary.header = las_description(file, header);
   ScanSummary scan;
   scan.name = path.stem().string();
   scan.points = header.points;
   scan.box = header.box;
+  if (!scan.box.isEmpty()) scan.box_from = "header";
   scan.attributes = attribute_names(attributes_of(header));
-  summary.scans.push_back(scan);
+  take_sample(scan, sample_records(file, header.points_offset, header.record_bytes, header.points,
+                                   [&](const std::byte* record) { return position_in(header, record); }));
+  summary.scans.push_back(std::move(scan));
   return summary;
 }
 

@@ -2,11 +2,14 @@
 // LAS 1.0 to 1.4, uncompressed.
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
+#include <vector>
 
 #include "core/foundation/progress.h"
 #include "io/scan_formats.h"
 #include "io/scan_stream.h"
+#include "io/scan_writer.h"
 
 namespace adit::io {
 
@@ -17,12 +20,12 @@ bool is_las(std::string_view beginning);
 /// is a file that holds fewer or more points than its header says. Errors as stream_scans.
 void stream_las(const std::filesystem::path& file, const ReadOptions& options, ScanSink& sink, Progress& progress);
 
-/// From the header alone, with its counts checked against the file's size.
-ScanFileSummary summarise_las(const std::filesystem::path& file);
+/// From the header, with its counts checked against the file's size, and from a sample of a large file.
+ScanFileSummary summarise_las(const std::filesystem::path& file, Progress& progress);
 
-/// LAS 1.4, point format 6, or 7 with colour; no variants. Coordinates are whole tenths of a millimetre about a
-/// whole-metre offset (a coarser step only beyond 200 km). Intensities as intensity_range() says; normals are left out.
-void write_las(const std::filesystem::path& file, const ScanData& scan, const WriteOptions& options,
-               Progress& progress);
+/// LAS 1.4, point format 6, or 7 with colour. Coordinates are whole tenths of a millimetre about a whole-metre offset
+/// (a coarser step only beyond 200 km). Intensities as intensity_range() says; normals are left out.
+std::unique_ptr<ScanWriter> make_las_writer(const std::filesystem::path& file, const std::vector<ScanFacts>& scans,
+                                            const WriteOptions& options);
 
 }  // namespace adit::io

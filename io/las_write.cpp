@@ -2,17 +2,15 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/foundation/error.h"
 #include "io/atomic_file.h"
+#include "io/intensity_range.h"
 #include "io/las.h"
-#include "io/outgoing_scan.h"
 
 namespace adit::io {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "LAS files are written as memory holds the numbers");
 
-constexpr std::size_t points_between_checks = 8192;
 constexpr std::size_t header_bytes = 375;
 constexpr double finest_scale_m = 1e-4;
 
@@ -34,8 +32,8 @@ Grid grid_for(const BoundingBox& box) {
   return grid;
 }
 
-std::string header_of(const OutgoingScan& scan, const BoundingBox& box, const Grid& grid) {
-  const bool colour = scan.cloud().has_colour();
+std::string header_of(const ScanFacts& scan, const Grid& grid) {
+  const bool colour = scan.header.attributes.colour;
   std::string bytes(header_bytes, '\0');
   std::memcpy(bytes.data(), "LASF", 4);
   put<std::uint16_t>(bytes, 6, 16);  // coordinate system, if any, as well-known text: point formats 6 and up ask for it
@@ -51,44 +49,61 @@ std::string header_of(const OutgoingScan& scan, const BoundingBox& box, const Gr
     const auto k = static_cast<Eigen::Index>(axis);
     put(bytes, 131 + 8 * axis, grid.scale_m);
     put(bytes, 155 + 8 * axis, grid.offset[k]);
-    put(bytes, 179 + 16 * axis, box.max()[k]);
-    put(bytes, 187 + 16 * axis, box.min()[k]);
+    put(bytes, 179 + 16 * axis, scan.box.max()[k]);
+    put(bytes, 187 + 16 * axis, scan.box.min()[k]);
   }
-  put<std::uint64_t>(bytes, 247, scan.size());
-  put<std::uint64_t>(bytes, 255, scan.size());  // all of them first returns
+  put<std::uint64_t>(bytes, 247, scan.points);
+  put<std::uint64_t>(bytes, 255, scan.points);  // all of them first returns
   return bytes;
 }
 
-void fill_record(std::string& record, const OutgoingScan& scan, std::size_t i, const Grid& grid,
-                 const IntensityRange& range) {
-  const Eigen::Vector3d steps = (scan.position(i) - grid.offset) / grid.scale_m;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    put(record, 4 * axis, static_cast<std::int32_t>(std::lround(steps[static_cast<Eigen::Index>(axis)])));
-  const PointCloud& cloud = scan.cloud();
-  if (cloud.has_intensity()) put(record, 12, static_cast<std::uint16_t>(std::lround(range(cloud.intensity[i]))));
-  put<std::uint8_t>(record, 14, 0x11);  // first return of one
-  if (!cloud.has_colour()) return;
-  for (std::size_t c = 0; c < 3; ++c) put(record, 30 + 2 * c, static_cast<std::uint16_t>(cloud.colour[i][c] * 257U));
-}
+class LasWriter : public ScanWriter {
+ public:
+  LasWriter(const std::filesystem::path& path, const ScanFacts& scan)
+      : scan_(scan),
+        grid_(grid_for(scan.box)),
+        range_(intensity_range(scan, 65535.0, true)),
+        file_(path),
+        record_(scan.header.attributes.colour ? 36 : 30, '\0') {}
+
+  bool begin(const ScanHeader&) override {
+    file_.append(header_of(scan_, grid_));
+    return true;
+  }
+
+  void take(PointBlock& block) override {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      fill_record(block, i);
+      file_.append(record_);
+    }
+  }
+
+  void end(std::uint64_t) override {}
+  void commit() override { file_.commit(); }
+
+ private:
+  void fill_record(const PointBlock& block, std::size_t i) {
+    const Eigen::Vector3d steps = (block.positions[i] - grid_.offset) / grid_.scale_m;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      put(record_, 4 * axis, static_cast<std::int32_t>(std::lround(steps[static_cast<Eigen::Index>(axis)])));
+    if (!block.intensity.empty()) put(record_, 12, static_cast<std::uint16_t>(std::lround(range_(block.intensity[i]))));
+    put<std::uint8_t>(record_, 14, 0x11);  // first return of one
+    if (block.colour.empty()) return;
+    for (std::size_t c = 0; c < 3; ++c) put(record_, 30 + 2 * c, static_cast<std::uint16_t>(block.colour[i][c] * 257U));
+  }
+
+  ScanFacts scan_;
+  Grid grid_;
+  IntensityRange range_;
+  AtomicFile file_;
+  std::string record_;
+};
 
 }  // namespace
 
-void write_las(const std::filesystem::path& path, const ScanData& scan_data, const WriteOptions& options,
-               Progress& progress) {
-  expect_variant(options, {}, path);
-  const OutgoingScan scan(scan_data, PoseGoes::into_points, path);
-  const BoundingBox box = scan.box();
-  const Grid grid = grid_for(box);
-  const IntensityRange range = intensity_range(scan.cloud(), 65535.0, true);
-  AtomicFile file(path);
-  file.append(header_of(scan, box, grid));
-  std::string record(scan.cloud().has_colour() ? 36 : 30, '\0');
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (i % points_between_checks == 0) progress.step(i, scan.size());
-    fill_record(record, scan, i, grid, range);
-    file.append(record);
-  }
-  file.commit();
+std::unique_ptr<ScanWriter> make_las_writer(const std::filesystem::path& path, const std::vector<ScanFacts>& scans,
+                                            const WriteOptions&) {
+  return std::make_unique<LasWriter>(path, scans.at(0));
 }
 
 }  // namespace adit::io

@@ -8,6 +8,7 @@
 #include "io/lzf_stream.h"
 #include "io/pcd_header.h"
 #include "io/point_stream.h"
+#include "io/scan_sample.h"
 #include "io/text_place.h"
 
 namespace adit::io {
@@ -154,6 +155,27 @@ void read_text(const InputFile& file, const PcdHeader& header, PointStream& out,
     lines.fail("there are more points than the header says", "the header is damaged; export the file again");
 }
 
+/// Nothing of a compressed file: its coordinates stand far apart, and no byte of them is found without all before it.
+ScanSample sampled(const InputFile& file, const PcdHeader& header) {
+  if (header.encoding == PcdEncoding::compressed) return {};
+  if (header.encoding == PcdEncoding::ascii) {
+    TextColumns text;
+    std::size_t column = 0;
+    for (const PcdField& field : header.fields) {
+      if (field.target >= PcdTarget::x && field.target <= PcdTarget::z)
+        text.xyz[static_cast<std::size_t>(field.target) - static_cast<std::size_t>(PcdTarget::x)] = column;
+      column += static_cast<std::size_t>(field.count);
+    }
+    return sample_lines(file, header.body_offset, file.size(), text, header.points);
+  }
+  const std::vector<PcdField> wanted = wanted_fields(header);
+  return sample_records(file, header.body_offset, header.point_bytes, header.points, [&](const std::byte* record) {
+    FilePoint point;
+    for (const PcdField& field : wanted) put_field(point, field, record + field.offset);
+    return point.position;
+  });
+}
+
 }  // namespace
 
 bool is_pcd(std::string_view beginning) {
@@ -177,19 +199,27 @@ void stream_pcd(const std::filesystem::path& path, const ReadOptions& options, S
   out.end();
 }
 
-ScanFileSummary summarise_pcd(const std::filesystem::path& path) {
+ScanFileSummary summarise_pcd(const std::filesystem::path& path, Progress&) {
   const InputFile file(path);
   const PcdHeader header = read_pcd_header(file);
   ScanFileSummary summary;
   summary.format = header.encoding == PcdEncoding::ascii    ? "PCD ascii"
                    : header.encoding == PcdEncoding::binary ? "PCD binary"
                                                             : "PCD binary compressed";
+  std::string fields;
+  for (const PcdField& field : header.fields) fields += (fields.empty() ? "" : " ") + field.name;
+  summary.header.push_back({"fields", fields});
   ScanSummary scan;
   scan.name = path.stem().string();
   scan.points = header.points;
   scan.pose = header.viewpoint;
   scan.attributes = attribute_names(pcd_attributes(header));
-  summary.scans.push_back(scan);
+  if (header.height > 1) {
+    scan.columns = header.width;
+    scan.rows = header.height;
+  }
+  take_sample(scan, sampled(file, header));
+  summary.scans.push_back(std::move(scan));
   return summary;
 }
 

@@ -2,11 +2,14 @@
 // PCD, the files of the Point Cloud Library: ascii, binary and binary_compressed.
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
+#include <vector>
 
 #include "core/foundation/progress.h"
 #include "io/scan_formats.h"
 #include "io/scan_stream.h"
+#include "io/scan_writer.h"
 
 namespace adit::io {
 
@@ -18,12 +21,12 @@ bool is_pcd(std::string_view beginning);
 /// stream_scans.
 void stream_pcd(const std::filesystem::path& file, const ReadOptions& options, ScanSink& sink, Progress& progress);
 
-/// From the header alone, with its counts checked against the file's size.
-ScanFileSummary summarise_pcd(const std::filesystem::path& file);
+/// From the header, with its counts checked against the file's size, and from a sample of a large file.
+ScanFileSummary summarise_pcd(const std::filesystem::path& file, Progress& progress);
 
-/// Variants ascii, binary (default), compressed. file_pose goes into VIEWPOINT. float coordinates where the cloud has
-/// no offset, else double.
-void write_pcd(const std::filesystem::path& file, const ScanData& scan, const WriteOptions& options,
-               Progress& progress);
+/// Variants ascii, binary (default), compressed. file_pose goes into VIEWPOINT. float coordinates where each is a
+/// float32 exactly, else double. The compressed variant is gathered in memory; Error for a body of over 256 MiB.
+std::unique_ptr<ScanWriter> make_pcd_writer(const std::filesystem::path& file, const std::vector<ScanFacts>& scans,
+                                            const WriteOptions& options);
 
 }  // namespace adit::io

@@ -1,22 +1,17 @@
-#include <bit>
-#include <cstring>
+#include <algorithm>
 
 #include "core/foundation/error.h"
 #include "core/foundation/options.h"
 #include "io/atomic_file.h"
-#include "io/outgoing_scan.h"
+#include "io/bytes.h"
 #include "io/pcd.h"
 #include "io/pcd_pcl.h"
-#include "io/text_line.h"
+#include "io/text_row.h"
 
 namespace adit::io {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "PCD files are written as memory holds the numbers");
-
-constexpr std::size_t points_between_checks = 8192;
-constexpr std::uint64_t most_compressed_bytes = 3'900'000'000;  // both sizes of a compressed body have 32 bits
-constexpr int decimals = 5;                                     // a hundredth of a millimetre
+constexpr std::uint64_t most_compressed_bytes = std::uint64_t{256} << 20;
 
 struct WrittenField {
   const char* name;
@@ -24,18 +19,24 @@ struct WrittenField {
   std::size_t size;
 };
 
-std::vector<WrittenField> written_fields(const OutgoingScan& scan) {
-  const std::size_t coordinate = scan.is_float32() ? 4 : 8;
+std::vector<WrittenField> written_fields(const ScanFacts& scan) {
+  const std::size_t coordinate = scan.coordinates_are_float32 ? 4 : 8;
+  const Attributes& has = scan.header.attributes;
   std::vector<WrittenField> fields = {{"x", 'F', coordinate}, {"y", 'F', coordinate}, {"z", 'F', coordinate}};
-  if (scan.cloud().has_intensity()) fields.push_back({"intensity", 'F', 4});
-  if (scan.cloud().has_colour()) fields.push_back({"rgb", 'U', 4});
-  if (scan.cloud().has_normals())
+  if (has.intensity) fields.push_back({"intensity", 'F', 4});
+  if (has.colour) fields.push_back({"rgb", 'U', 4});
+  if (has.normals)
     for (const char* name : {"normal_x", "normal_y", "normal_z"}) fields.push_back({name, 'F', 4});
   return fields;
 }
 
-std::string header_text(const OutgoingScan& scan, const std::vector<WrittenField>& fields, const Pose& pose,
-                        const std::string& encoding) {
+std::size_t record_bytes(const std::vector<WrittenField>& fields) {
+  std::size_t bytes = 0;
+  for (const WrittenField& field : fields) bytes += field.size;
+  return bytes;
+}
+
+std::string header_text(const ScanFacts& scan, const std::vector<WrittenField>& fields, const std::string& encoding) {
   std::string names = "FIELDS", sizes = "SIZE", types = "TYPE", counts = "COUNT";
   for (const WrittenField& field : fields) {
     names += std::string(" ") + field.name;
@@ -43,12 +44,13 @@ std::string header_text(const OutgoingScan& scan, const std::vector<WrittenField
     types += std::string(" ") + field.type;
     counts += " 1";
   }
+  const Pose pose = scan.header.file_pose.value_or(Pose::Identity());
   const Eigen::Quaterniond turn(pose.linear());
   std::string viewpoint = "VIEWPOINT";
   for (const double v :
        {pose.translation().x(), pose.translation().y(), pose.translation().z(), turn.w(), turn.x(), turn.y(), turn.z()})
     viewpoint += " " + short_number(v);
-  const std::string n = std::to_string(scan.size());
+  const std::string n = std::to_string(scan.points);
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + names + "\n" + sizes + "\n" + types + "\n" +
          counts + "\nWIDTH " + n + "\nHEIGHT 1\n" + viewpoint + "\nPOINTS " + n + "\nDATA " + encoding + "\n";
 }
@@ -57,98 +59,118 @@ std::uint32_t packed_colour(const std::array<std::uint8_t, 3>& colour) {
   return std::uint32_t{colour[0]} << 16 | std::uint32_t{colour[1]} << 8 | std::uint32_t{colour[2]};
 }
 
-template <typename T>
-void add_stored(std::string& bytes, T value) {
-  char stored[sizeof(T)];
-  std::memcpy(stored, &value, sizeof(T));
-  bytes.append(stored, sizeof(T));
-}
-
-void add_record(std::string& bytes, const OutgoingScan& scan, std::size_t i) {
-  const PointCloud& cloud = scan.cloud();
-  if (scan.is_float32())
-    for (const float c : cloud.points[i]) add_stored(bytes, c);
-  else
-    for (const double c : scan.position(i)) add_stored(bytes, c);
-  if (cloud.has_intensity()) add_stored(bytes, cloud.intensity[i]);
-  if (cloud.has_colour()) add_stored(bytes, packed_colour(cloud.colour[i]));
-  if (cloud.has_normals())
-    for (const float c : scan.normal(i)) add_stored(bytes, c);
-}
-
-void add_text(TextLine& line, const OutgoingScan& scan, std::size_t i) {
-  const PointCloud& cloud = scan.cloud();
-  if (scan.is_float32())
-    for (const float c : cloud.points[i]) line.add(c);
-  else
-    for (const double c : scan.position(i)) line.add(c, decimals);
-  if (cloud.has_intensity()) line.add(cloud.intensity[i]);
-  if (cloud.has_colour()) line.add(packed_colour(cloud.colour[i]));
-  if (cloud.has_normals())
-    for (const float c : scan.normal(i)) line.add(c);
-}
-
-void append_rows(AtomicFile& file, const OutgoingScan& scan, bool ascii, const Progress& progress) {
-  TextLine line;
-  std::string record;
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (i % points_between_checks == 0) progress.step(i, scan.size());
-    line.clear();
-    record.clear();
-    if (ascii)
-      add_text(line, scan, i);
+void append_record(std::string& bytes, const PointBlock& block, std::size_t i, bool is_float32) {
+  constexpr std::endian order = std::endian::little;
+  for (const double c : block.positions[i]) {
+    if (is_float32)
+      append_stored(bytes, static_cast<float>(c), order);
     else
-      add_record(record, scan, i);
-    file.append(ascii ? line.ended() : record);
+      append_stored(bytes, c, order);
   }
+  if (!block.intensity.empty()) append_stored(bytes, block.intensity[i], order);
+  if (!block.colour.empty()) append_stored(bytes, packed_colour(block.colour[i]), order);
+  if (!block.normals.empty())
+    for (const float c : block.normals[i]) append_stored(bytes, c, order);
 }
 
-/// A compressed body holds all x, then all y, and so on.
-void append_compressed(AtomicFile& file, const OutgoingScan& scan, const std::vector<WrittenField>& fields,
-                       const Progress& progress) {
-  std::size_t record_bytes = 0;
-  for (const WrittenField& field : fields) record_bytes += field.size;
-  std::string columns(record_bytes * scan.size(), '\0');
-  std::string record;
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (i % points_between_checks == 0) progress.step(i, scan.size());
-    record.clear();
-    add_record(record, scan, i);
-    std::size_t offset = 0;
-    for (const WrittenField& field : fields) {
-      std::memcpy(columns.data() + offset * scan.size() + i * field.size, record.data() + offset, field.size);
-      offset += field.size;
+/// Variants ascii and binary: point after point.
+class PcdWriter : public ScanWriter {
+ public:
+  PcdWriter(const std::filesystem::path& path, const ScanFacts& scan, bool ascii)
+      : scan_(scan), ascii_(ascii), file_(path) {}
+
+  bool begin(const ScanHeader&) override {
+    file_.append(header_text(scan_, written_fields(scan_), ascii_ ? "ascii" : "binary"));
+    return true;
+  }
+
+  void take(PointBlock& block) override {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (ascii_) {
+        append_text(block, i);
+      } else {
+        record_.clear();
+        append_record(record_, block, i, scan_.coordinates_are_float32);
+        file_.append(record_);
+      }
     }
   }
-  const std::string packed = lzf_packed(columns);
-  std::string sizes;
-  add_stored(sizes, static_cast<std::uint32_t>(packed.size()));
-  add_stored(sizes, static_cast<std::uint32_t>(columns.size()));
-  file.append(sizes);
-  file.append(packed);
-}
+
+  void end(std::uint64_t) override {}
+  void commit() override { file_.commit(); }
+
+ private:
+  void append_text(const PointBlock& block, std::size_t i) {
+    line_.clear();
+    add_position(line_, block.positions[i], scan_.coordinates_are_float32);
+    if (!block.intensity.empty()) line_.add(block.intensity[i]);
+    if (!block.colour.empty()) line_.add(packed_colour(block.colour[i]));
+    if (!block.normals.empty()) add_normal(line_, block.normals[i]);
+    file_.append(line_.ended());
+  }
+
+  ScanFacts scan_;
+  bool ascii_;
+  AtomicFile file_;
+  std::string record_;
+  TextLine line_;
+};
+
+/// A compressed body holds all x, then all y, and so on, so it is gathered whole before it is packed.
+class CompressedPcdWriter : public ScanWriter {
+ public:
+  CompressedPcdWriter(const std::filesystem::path& path, const ScanFacts& scan)
+      : scan_(scan), fields_(written_fields(scan)), file_(path) {
+    const std::uint64_t most_points = most_compressed_bytes / record_bytes(fields_);
+    if (scan.points > most_points)
+      throw Error("a compressed PCD of more than " + std::to_string(most_points) + " such points is not written",
+                  path.string(), "write the variant binary");
+  }
+
+  bool begin(const ScanHeader&) override {
+    file_.append(header_text(scan_, fields_, "binary_compressed"));
+    columns_.assign(record_bytes(fields_) * static_cast<std::size_t>(scan_.points), '\0');
+    return true;
+  }
+
+  void take(PointBlock& block) override {
+    const auto points = static_cast<std::size_t>(scan_.points);
+    for (std::size_t i = 0; i < block.size() && done_ < points; ++i, ++done_) {
+      record_.clear();
+      append_record(record_, block, i, scan_.coordinates_are_float32);
+      std::size_t offset = 0;
+      for (const WrittenField& field : fields_) {
+        std::memcpy(columns_.data() + offset * points + done_ * field.size, record_.data() + offset, field.size);
+        offset += field.size;
+      }
+    }
+  }
+
+  void end(std::uint64_t) override {
+    const std::string packed = lzf_packed(columns_);
+    std::string sizes;
+    append_stored(sizes, static_cast<std::uint32_t>(packed.size()), std::endian::little);
+    append_stored(sizes, static_cast<std::uint32_t>(columns_.size()), std::endian::little);
+    file_.append(sizes);
+    file_.append(packed);
+  }
+  void commit() override { file_.commit(); }
+
+ private:
+  ScanFacts scan_;
+  std::vector<WrittenField> fields_;
+  AtomicFile file_;
+  std::string columns_;
+  std::string record_;
+  std::size_t done_ = 0;
+};
 
 }  // namespace
 
-void write_pcd(const std::filesystem::path& path, const ScanData& scan_data, const WriteOptions& options,
-               Progress& progress) {
-  expect_variant(options, {"ascii", "binary", "compressed"}, path);
-  const OutgoingScan scan(scan_data, PoseGoes::beside_points, path);
-  const std::vector<WrittenField> fields = written_fields(scan);
-  std::uint64_t record_bytes = 0;
-  for (const WrittenField& field : fields) record_bytes += field.size;
-  const bool compressed = options.variant == "compressed";
-  if (compressed && record_bytes * scan.size() > most_compressed_bytes)
-    throw Error("a compressed PCD file cannot hold so many points", path.string(), "write the variant binary");
-  AtomicFile file(path);
-  const Pose pose = scan_data.file_pose.value_or(Pose::Identity());
-  const std::string encoding = compressed ? "binary_compressed" : options.variant.empty() ? "binary" : options.variant;
-  file.append(header_text(scan, fields, pose, encoding));
-  if (compressed)
-    append_compressed(file, scan, fields, progress);
-  else
-    append_rows(file, scan, encoding == "ascii", progress);
-  file.commit();
+std::unique_ptr<ScanWriter> make_pcd_writer(const std::filesystem::path& path, const std::vector<ScanFacts>& scans,
+                                            const WriteOptions& options) {
+  if (options.variant == "compressed") return std::make_unique<CompressedPcdWriter>(path, scans.at(0));
+  return std::make_unique<PcdWriter>(path, scans.at(0), options.variant == "ascii");
 }
 
 }  // namespace adit::io

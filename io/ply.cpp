@@ -7,6 +7,7 @@
 #include "io/bytes.h"
 #include "io/ply_header.h"
 #include "io/point_stream.h"
+#include "io/scan_sample.h"
 #include "io/text_place.h"
 
 namespace adit::io {
@@ -205,6 +206,33 @@ void read_text(const InputFile& file, const PlyHeader& header, PointStream& out,
     lines.fail("there are more rows than the header says", "the header is damaged; export the file again");
 }
 
+/// Nothing where only reading tells where the points stand: behind or among rows of any length.
+ScanSample sampled(const InputFile& file, const PlyHeader& header) {
+  const PlyElement& vertex = header.elements[header.vertex];
+  if (vertex.has_lists()) return {};
+  const std::vector<Column> columns = columns_of(vertex);
+  if (header.ascii) {
+    TextColumns text;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (columns[i].target >= PlyTarget::x && columns[i].target <= PlyTarget::z)
+        text.xyz[static_cast<std::size_t>(columns[i].target) - static_cast<std::size_t>(PlyTarget::x)] = i;
+    for (const PlyElement& element : header.elements)
+      if (&element != &vertex && element.count > 0) return {};
+    return sample_lines(file, header.body_offset, file.size(), text, vertex.count);
+  }
+  std::uint64_t begin = header.body_offset;
+  for (std::size_t e = 0; e < header.vertex; ++e) {
+    if (header.elements[e].has_lists()) return {};
+    begin += header.elements[e].count * header.elements[e].row_bytes();
+  }
+  return sample_records(file, begin, vertex.row_bytes(), vertex.count, [&](const std::byte* row) {
+    FilePoint point;
+    for (const Column& column : columns)
+      put(point, column.target, column.type, ply_value(column.type, header.order, row + column.offset));
+    return point.position;
+  });
+}
+
 }  // namespace
 
 bool is_ply(std::string_view beginning) {
@@ -225,7 +253,7 @@ void stream_ply(const std::filesystem::path& path, const ReadOptions& options, S
   out.end();
 }
 
-ScanFileSummary summarise_ply(const std::filesystem::path& path) {
+ScanFileSummary summarise_ply(const std::filesystem::path& path, Progress&) {
   const InputFile file(path);
   const PlyHeader header = read_ply_header(file);
   const PlyElement& vertex = header.elements[header.vertex];
@@ -233,11 +261,15 @@ ScanFileSummary summarise_ply(const std::filesystem::path& path) {
   summary.format = header.ascii                       ? "PLY ascii"
                    : header.order == std::endian::big ? "PLY binary big endian"
                                                       : "PLY binary little endian";
+  for (const std::string& comment : header.comments) summary.header.push_back({"comment", comment});
+  for (const PlyElement& element : header.elements)
+    if (&element != &vertex) summary.header.push_back({"also", std::to_string(element.count) + " of " + element.name});
   ScanSummary scan;
   scan.name = path.stem().string();
   scan.points = vertex.count;
   scan.attributes = attribute_names(ply_attributes(vertex));
-  summary.scans.push_back(scan);
+  take_sample(scan, sampled(file, header));
+  summary.scans.push_back(std::move(scan));
   return summary;
 }
 

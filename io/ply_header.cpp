@@ -72,7 +72,11 @@ class HeaderParser {
       if (words_.empty()) continue;
       const std::string_view word = words_[0].text;
       if (word == "end_header") break;
-      if (word == "comment" || word == "obj_info") continue;
+      if (word == "comment" || word == "obj_info") {
+        if (words_.size() > 1)
+          header_.comments.emplace_back(words_[1].text.data(), words_.back().text.data() + words_.back().text.size());
+        continue;
+      }
       if (word == "format") {
         take_format();
         has_format = true;

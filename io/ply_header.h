@@ -40,9 +40,10 @@ struct PlyHeader {
   bool ascii = false;
   std::endian order = std::endian::little;
   std::vector<PlyElement> elements;
-  std::size_t vertex = 0;         ///< which element holds the points
-  std::uint64_t body_offset = 0;  ///< first byte after the header
-  int body_line = 0;              ///< its line
+  std::vector<std::string> comments;  ///< the words behind comment and obj_info
+  std::size_t vertex = 0;             ///< which element holds the points
+  std::uint64_t body_offset = 0;      ///< first byte after the header
+  int body_line = 0;                  ///< its line
 };
 
 /// Reads and checks a header: known types, x y z present, no more rows than the file has room for (and, in a binary

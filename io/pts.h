@@ -2,11 +2,13 @@
 // PTS: a line with the number of points, then a line for each: x y z [intensity] [red green blue].
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "core/foundation/progress.h"
 #include "io/scan_formats.h"
 #include "io/scan_stream.h"
+#include "io/scan_writer.h"
 
 namespace adit::io {
 
@@ -14,8 +16,11 @@ namespace adit::io {
 /// their scale. A count that disagrees with the lines below it is refused. Errors as stream_scans.
 void stream_pts(const std::filesystem::path& file, const ReadOptions& options, ScanSink& sink, Progress& progress);
 
-/// x y z intensity, and red green blue where the scan has colours; no variants. Normals are left out.
-void write_pts(const std::filesystem::path& file, const ScanData& scan, const WriteOptions& options,
-               Progress& progress);
+/// From the counts, with the lines below them counted but not read, and from a sample of a large file.
+ScanFileSummary summarise_pts(const std::filesystem::path& file, Progress& progress);
+
+/// x y z intensity, and red green blue where the scan has colours. Normals are left out.
+std::unique_ptr<ScanWriter> make_pts_writer(const std::filesystem::path& file, const std::vector<ScanFacts>& scans,
+                                            const WriteOptions& options);
 
 }  // namespace adit::io

@@ -4,6 +4,7 @@
 
 #include "core/foundation/error.h"
 #include "io/point_stream.h"
+#include "io/scan_sample.h"
 #include "io/text_place.h"
 
 namespace adit::io {
@@ -78,11 +79,14 @@ struct Grid {
   std::uint64_t places() const { return columns * rows; }
 };
 
+[[noreturn]] void ended_early(const LineReader& lines, std::uint64_t done, const Grid& grid) {
+  lines.fail(
+      "the header says " + std::to_string(grid.places()) + " points, the file ends after " + std::to_string(done),
+      "the file is cut short; copy or export it again");
+}
+
 const std::vector<Field>& next_place(LineReader& lines, std::uint64_t done, const Grid& grid) {
-  if (!lines.next_with_text())
-    lines.fail(
-        "the header says " + std::to_string(grid.places()) + " points, the file ends after " + std::to_string(done),
-        "the file is cut short; copy or export it again");
+  if (!lines.next_with_text()) ended_early(lines, done, grid);
   return lines.fields_between_blanks();
 }
 
@@ -110,10 +114,8 @@ void stream_grid(LineReader& lines, const Grid& grid, ScanHeader header, const R
   out.end();
 }
 
-/// One scan, its number of columns on the present line.
-void stream_scan(LineReader& lines, const std::string& name, const ReadOptions& options, ScanSink& sink,
-                 const Progress& progress) {
-  Grid grid;
+/// The header of a scan, its number of columns on the present line.
+ScanHeader scan_header(LineReader& lines, const std::string& name, Grid& grid) {
   grid.columns = side(lines, "columns");
   next_header_line(lines);
   grid.rows = side(lines, "rows");
@@ -126,16 +128,60 @@ void stream_scan(LineReader& lines, const std::string& name, const ReadOptions& 
   lines.file().expect_records(lines.position(), grid.places(), least_line_bytes, "points");
   if (grid.places() == 0)
     throw Error("the scan holds no points", header.where, "export the scan again with its points");
+  return header;
+}
+
+void stream_scan(LineReader& lines, const std::string& name, const ReadOptions& options, ScanSink& sink,
+                 const Progress& progress) {
+  Grid grid;
+  ScanHeader header = scan_header(lines, name, grid);
   stream_grid(lines, grid, std::move(header), options, sink, progress);
+}
+
+/// The same without reading the points.
+ScanSummary summary_of_scan(LineReader& lines, const std::string& name, const Progress& progress) {
+  Grid grid;
+  const ScanHeader header = scan_header(lines, name, grid);
+  const std::uint64_t begin = lines.position();
+  ScanSummary scan;
+  scan.name = name;
+  scan.pose = header.file_pose;
+  scan.points = grid.places();
+  scan.columns = grid.columns;
+  scan.rows = grid.rows;
+  scan.attributes = attribute_names(attributes_of(lines, next_place(lines, 0, grid).size()));
+  for (std::uint64_t i = 1; i < grid.places(); ++i) {
+    if (i % points_between_checks == 0) progress.step(lines.position(), lines.file().size());
+    if (!lines.next_with_text()) ended_early(lines, i, grid);
+  }
+  TextColumns columns;
+  columns.zero_is_no_return = true;
+  take_sample(scan, sample_lines(lines.file(), begin, lines.position(), columns, grid.places()));
+  return scan;
+}
+
+/// Goes to the next scan; false at the end of the file.
+bool next_scan(LineReader& lines, int scans) {
+  if (lines.next_with_text()) return true;
+  if (scans == 0) lines.fail("the file holds no points", "export the scan again with its points");
+  return false;
 }
 
 }  // namespace
 
 void stream_ptx(const std::filesystem::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
   LineReader lines(path);
-  int scans = 0;
-  while (lines.next_with_text()) stream_scan(lines, name_of_scan(path, ++scans), options, sink, progress);
-  if (scans == 0) lines.fail("the file holds no points", "export the scan again with its points");
+  for (int scans = 0; next_scan(lines, scans); ++scans)
+    stream_scan(lines, name_of_scan(path, scans + 1), options, sink, progress);
+}
+
+ScanFileSummary summarise_ptx(const std::filesystem::path& path, Progress& progress) {
+  LineReader lines(path);
+  ScanFileSummary summary;
+  summary.format = "PTX";
+  for (int scans = 0; next_scan(lines, scans); ++scans)
+    summary.scans.push_back(summary_of_scan(lines, name_of_scan(path, scans + 1), progress));
+  return summary;
 }
 
 }  // namespace adit::io

@@ -1,18 +1,22 @@
 #include "io/scan_formats.h"
 
 #include <algorithm>
-#include <array>
-#include <functional>
+#include <memory>
 #include <string_view>
+#include <utility>
 
 #include "core/foundation/error.h"
+#include "io/atomic_file.h"
 #include "io/bytes.h"
+#include "io/checked_writer.h"
 #include "io/las.h"
 #include "io/pcd.h"
 #include "io/ply.h"
 #include "io/pts.h"
 #include "io/ptx.h"
 #include "io/scan_collector.h"
+#include "io/scan_from_memory.h"
+#include "io/scan_sample.h"
 #include "io/xyz.h"
 
 namespace adit::io {
@@ -22,6 +26,7 @@ namespace fs = std::filesystem;
 using Scans = std::vector<ScanData>;
 
 using Stream = void (*)(const fs::path&, const ReadOptions&, ScanSink&, Progress&);
+using Summarise = ScanFileSummary (*)(const fs::path&, Progress&);
 
 Scans collected(Stream stream, const fs::path& file, const ReadOptions& options, Progress& progress) {
   ScanCollector collector;
@@ -29,85 +34,39 @@ Scans collected(Stream stream, const fs::path& file, const ReadOptions& options,
   return std::move(collector.scans);
 }
 
-BoundingBox box_of(const ScanData& scan) {
-  BoundingBox box;
-  for (const Eigen::Vector3f& p : scan.cloud.points) box.extend(p.cast<double>() + scan.offset);
-  return box;
-}
+using MakeFormatWriter = std::unique_ptr<ScanWriter> (*)(const fs::path&, const std::vector<ScanFacts>&,
+                                                         const WriteOptions&);
 
-/// For headers that do not say where the points lie.
-ScanFileSummary with_box(ScanFileSummary summary, const ScanData& scan) {
-  summary.scans.front().box = box_of(scan);
-  return summary;
-}
-
-constexpr ReadOptions finite_points{true};
-
-/// For text formats: only reading tells how many points there are, and where.
-ScanFileSummary summary_of(const std::string& format, const Scans& scans) {
-  ScanFileSummary summary;
-  summary.format = format;
-  for (const ScanData& scan : scans) {
-    ScanSummary row;
-    row.name = scan.name;
-    row.points = scan.cloud.size();
-    row.pose = scan.file_pose;
-    row.box = box_of(scan);
-    if (scan.cloud.has_intensity()) row.attributes.emplace_back("intensity");
-    if (scan.cloud.has_colour()) row.attributes.emplace_back("colour");
-    if (scan.cloud.has_normals()) row.attributes.emplace_back("normals");
-    summary.scans.push_back(std::move(row));
-  }
-  return summary;
-}
-
-/// A row of the table. `begins` may be empty: the format has no signature.
+/// A row of the table. `begins` may be empty: the format has no signature. `make_writer` may be empty: it is only read.
 struct ScanFormat {
   std::vector<std::string> endings;
   bool (*begins)(std::string_view) = nullptr;
   Stream stream = nullptr;
-  std::function<ScanFileSummary(const fs::path&, Progress&)> summarise;
-  std::function<void(const fs::path&, const Scans&, const WriteOptions&, Progress&)> write;
+  Summarise summarise = nullptr;
+  MakeFormatWriter make_writer = nullptr;
+  PoseGoes pose_goes = PoseGoes::into_points;
   bool holds_several_scans = false;
+  std::vector<std::string> variants;
 };
+
+constexpr auto into_points = PoseGoes::into_points;
+constexpr auto beside_points = PoseGoes::beside_points;
 
 std::vector<ScanFormat> make_formats() {
   return {
-      {{".ply"},
-       is_ply,
-       stream_ply,
-       [](auto& file, auto& progress) {
-         return with_box(summarise_ply(file), collected(stream_ply, file, finite_points, progress)[0]);
-       },
-       [](auto& file, auto& scans, auto& options, auto& progress) { write_ply(file, scans[0], options, progress); }},
+      {{".ply"}, is_ply, stream_ply, summarise_ply, make_ply_writer, into_points, false, {"ascii", "little", "big"}},
       {{".pcd"},
        is_pcd,
        stream_pcd,
-       [](auto& file, auto& progress) {
-         return with_box(summarise_pcd(file), collected(stream_pcd, file, finite_points, progress)[0]);
-       },
-       [](auto& file, auto& scans, auto& options, auto& progress) { write_pcd(file, scans[0], options, progress); }},
-      {{".las"},
-       is_las,
-       stream_las,
-       [](auto& file, auto&) { return summarise_las(file); },
-       [](auto& file, auto& scans, auto& options, auto& progress) { write_las(file, scans[0], options, progress); }},
-      {{".pts"},
-       nullptr,
-       stream_pts,
-       [](auto& file, auto& progress) { return summary_of("PTS", collected(stream_pts, file, {}, progress)); },
-       [](auto& file, auto& scans, auto& options, auto& progress) { write_pts(file, scans[0], options, progress); }},
-      {{".ptx"},
-       nullptr,
-       stream_ptx,
-       [](auto& file, auto& progress) { return summary_of("PTX", collected(stream_ptx, file, {}, progress)); },
-       write_ptx,
-       true},
-      {{".xyz", ".csv", ".txt"},
-       nullptr,
-       stream_xyz,
-       [](auto& file, auto& progress) { return summary_of("XYZ text", collected(stream_xyz, file, {}, progress)); },
-       [](auto& file, auto& scans, auto& options, auto& progress) { write_xyz(file, scans[0], options, progress); }},
+       summarise_pcd,
+       make_pcd_writer,
+       beside_points,
+       false,
+       {"ascii", "binary", "compressed"}},
+      {{".las"}, is_las, stream_las, summarise_las, make_las_writer, into_points, false, {}},
+      {{".pts"}, nullptr, stream_pts, summarise_pts, make_pts_writer, into_points, false, {}},
+      {{".ptx"}, nullptr, stream_ptx, summarise_ptx, make_ptx_writer, beside_points, true, {}},
+      {{".xyz", ".csv", ".txt"}, nullptr, stream_xyz, summarise_xyz, make_xyz_writer, into_points, false, {}},
   };
 }
 
@@ -143,6 +102,27 @@ std::string listed(const std::vector<std::string>& endings) {
   return list;
 }
 
+template <typename Test>
+std::vector<std::string> endings_that(const Test& test) {
+  std::vector<std::string> endings;
+  for (const ScanFormat& format : formats())
+    if (test(format)) endings.insert(endings.end(), format.endings.begin(), format.endings.end());
+  return endings;
+}
+
+/// The format of a file to be made. Error when the ending or the variant names none.
+const ScanFormat& writable_format(const fs::path& file, const WriteOptions& options) {
+  const ScanFormat* format = format_by_ending(file);
+  if (format == nullptr || format->make_writer == nullptr)
+    throw Error("the ending names no scan format" + std::string(format == nullptr ? "" : " that is written"),
+                file.string(), "known are " + listed(writable_endings()));
+  const std::vector<std::string>& known = format->variants;
+  if (!options.variant.empty() && std::find(known.begin(), known.end(), options.variant) == known.end())
+    throw Error("the format has no variant \"" + options.variant + "\"", file.string(),
+                known.empty() ? "leave the variant out" : "choose one of " + listed(known));
+  return *format;
+}
+
 /// The format of an existing file: its first bytes say more than its name.
 const ScanFormat& format_of(const fs::path& path) {
   const InputFile file(path);
@@ -173,30 +153,50 @@ std::vector<ScanData> read_scans(const fs::path& file, const ReadOptions& option
 }
 
 ScanFileSummary summarise_scan_file(const fs::path& file, Progress& progress) {
-  return format_of(file).summarise(file, progress);
+  const ScanFormat& format = format_of(file);
+  ScanFileSummary summary = format.summarise(file, progress);
+  if (is_read_whole(InputFile(file).size())) {
+    WholeScans whole;
+    format.stream(file, {.drop_invalid = true}, whole, progress);
+    whole.complete(summary);
+  }
+  return summary;
 }
 
-void write_scans(const fs::path& file, const std::vector<ScanData>& scans, const WriteOptions& options,
-                 Progress& progress) {
-  const ScanFormat* format = format_by_ending(file);
-  if (format == nullptr)
-    throw Error("the ending names no scan format", file.string(), "known are " + listed(writable_endings()));
+void expect_writable(const fs::path& file, const WriteOptions& options) {
+  writable_format(file, options);
+  const AtomicFile probe(file);
+}
+
+std::unique_ptr<ScanWriter> make_scan_writer(const fs::path& file, std::vector<ScanFacts> scans,
+                                             const WriteOptions& options) {
+  const ScanFormat& format = writable_format(file, options);
   if (scans.empty()) throw Error("there is no scan to write", file.string(), "choose at least one scan");
-  if (scans.size() > 1 && !format->holds_several_scans)
+  if (scans.size() > 1 && !format.holds_several_scans)
     throw Error("the format holds one scan, not " + std::to_string(scans.size()), file.string(),
-                "write .ptx, or one file a scan");
-  format->write(file, scans, options, progress);
+                "write one of " + listed(endings_that([](const ScanFormat& f) { return f.holds_several_scans; })) +
+                    ", or one file a scan");
+  return checked_writer(file, std::move(scans), format.pose_goes, [&](const std::vector<ScanFacts>& written) {
+    return format.make_writer(file, written, options);
+  });
+}
+
+void write_scans(const fs::path& file, const Scans& scans, const WriteOptions& options, Progress& progress) {
+  writable_format(file, options);
+  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(scans.size(), 1));
+  FactsSink facts;
+  for (const ScanData& scan : scans) stream_from_memory(scan, file, facts, progress.part(0.2 * share, scan.name));
+  const std::unique_ptr<ScanWriter> writer = make_scan_writer(file, std::move(facts.scans), options);
+  for (const ScanData& scan : scans) stream_from_memory(scan, file, *writer, progress.part(0.8 * share, scan.name));
+  writer->commit();
 }
 
 std::vector<std::string> readable_endings() {
-  std::vector<std::string> endings;
-  for (const ScanFormat& format : formats())
-    endings.insert(endings.end(), format.endings.begin(), format.endings.end());
-  return endings;
+  return endings_that([](const ScanFormat&) { return true; });
 }
 
 std::vector<std::string> writable_endings() {
-  return readable_endings();
+  return endings_that([](const ScanFormat& format) { return format.make_writer != nullptr; });
 }
 
 }  // namespace adit::io

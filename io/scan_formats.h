@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/pose.h"
 #include "io/scan_stream.h"
+#include "io/scan_writer.h"
 
 namespace adit::io {
 
@@ -28,16 +30,38 @@ struct ScanData {
   std::uint64_t no_returns = 0;  ///< places of a grid without a point (NaN in organised PCD, 0 0 0 in PTX), left out
 };
 
-/// What a header says and a quick look confirms.
+/// About how dense the points lie, from a sample. Two digits are all it is good for.
+struct PointDensity {
+  double points_per_m2 = 0.0;        ///< of the surface that was seen
+  std::optional<double> distance_m;  ///< at this distance from the file's origin; else the median of all points
+  double spacing_m() const;
+};
+
+/// What a header says of a scan and a quick look shows.
 struct ScanSummary {
   std::string name;
-  std::uint64_t points = 0;
+  std::uint64_t points = 0;  ///< as the header says, places without a return among them
+  bool points_estimated = false;
   std::optional<Pose> pose;
-  BoundingBox box;                      ///< file coordinates
+  BoundingBox box;                      ///< file coordinates; empty when a quick look cannot tell
+  std::string box_from;                 ///< "header", "sample" or "all points"; empty without a box
   std::vector<std::string> attributes;  ///< "intensity", "colour", "normals", ...
+  std::uint64_t columns = 0;            ///< of the raster; 0 without one
+  std::uint64_t rows = 0;
+  std::uint64_t sampled_points = 0;         ///< points that were looked at
+  std::optional<std::uint64_t> no_returns;  ///< places without a return, where all points were looked at
+  std::optional<PointDensity> density;
 };
+
+/// A thing a header says beyond the scans, for people: {"software", "..."}.
+struct HeaderFact {
+  std::string name;
+  std::string text;
+};
+
 struct ScanFileSummary {
   std::string format;  ///< "PLY binary little endian", "LAS 1.4 point format 6", ...
+  std::vector<HeaderFact> header;
   std::vector<ScanSummary> scans;
 };
 
@@ -57,14 +81,25 @@ void stream_scans(const std::filesystem::path& file, const ReadOptions& options,
 /// The same into memory, for files known to be small. Errors as stream_scans.
 std::vector<ScanData> read_scans(const std::filesystem::path& file, const ReadOptions& options, Progress& progress);
 
-/// What a file holds and where its points lie: from the header alone where it says so (LAS), else read through.
+/// What a file holds and about where its points lie: from the header, and from a sample of the points where the file
+/// is larger than 8 MiB. PTX and PTS are read through for their line ends alone, which tell where the next scan begins.
 ScanFileSummary summarise_scan_file(const std::filesystem::path& file, Progress& progress);
 
-/// Writes by ending (.ply .pcd .las .pts .ptx .xyz .csv), atomically. Several scans only where the format can (PTX);
-/// elsewhere Error. Formats without a pose get the points moved by file_pose where there is one.
+/// How to write.
 struct WriteOptions {
   std::string variant;  ///< "" is the format's default; PLY: ascii, little, big; PCD: ascii, binary, compressed
 };
+
+/// Error unless scans can be written to this file: its ending, the variant, the folder.
+void expect_writable(const std::filesystem::path& file, const WriteOptions& options);
+
+/// The writer of a new file, by its ending (.ply .pcd .las .pts .ptx .xyz .csv). Several scans only where the format
+/// can (PTX); elsewhere Error. Formats without a pose get the points moved by file_pose where there is one. What is
+/// handed in must be what the facts were taken from; Error otherwise.
+std::unique_ptr<ScanWriter> make_scan_writer(const std::filesystem::path& file, std::vector<ScanFacts> scans,
+                                             const WriteOptions& options);
+
+/// Writes scans in memory, atomically. As make_scan_writer().
 void write_scans(const std::filesystem::path& file, const std::vector<ScanData>& scans, const WriteOptions& options,
                  Progress& progress);
 

@@ -15,12 +15,14 @@ struct ScanFacts {
   ScanHeader header;
   std::uint64_t points = 0;             ///< exactly as many as will be handed out
   BoundingBox box;                      ///< of the points, file coordinates
+  BoundingBox site_box;                 ///< of the points moved by file_pose; as box where there is none
   bool coordinates_are_float32 = true;  ///< every coordinate is a float32 to the last bit
   float least_intensity = 0.0F;
   float greatest_intensity = 0.0F;
   bool whole_intensities = true;
   std::uint32_t rows = 0;  ///< of the raster, one more than the largest row; 0 without a grid
   std::uint32_t columns = 0;
+  bool column_by_column = true;  ///< the points come in rising order of column and, within it, of row, no place twice
 };
 
 /// Gathers the facts of every scan handed to it.
@@ -31,6 +33,13 @@ class FactsSink : public ScanSink {
   void end(std::uint64_t no_returns) override;
 
   std::vector<ScanFacts> scans;
+
+ private:
+  void take_positions(const PointBlock& block, ScanFacts& facts) const;
+  void take_intensities(const PointBlock& block, ScanFacts& facts) const;
+  void take_grid(const PointBlock& block, ScanFacts& facts);
+
+  GridPlace last_place_;
 };
 
 /// Takes the same scans again, in the same order, and writes them. Destroyed without commit() it leaves nothing.

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "core/foundation/error.h"
 
@@ -28,16 +27,6 @@ bool is_comma_decimal(std::string_view text) {
          is_digit(text[comma + 1]);
 }
 
-std::optional<double> parsed(std::string_view text) {
-  const char* begin = text.data();
-  const char* end = begin + text.size();
-  if (text.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
-  double value = 0.0;
-  const auto result = std::from_chars(begin, end, value);
-  if (result.ec != std::errc{} || result.ptr != end) return std::nullopt;
-  return value;
-}
-
 Field trimmed(std::string_view line, std::size_t begin, std::size_t end, int line_number) {
   while (begin < end && is_blank(line[begin])) ++begin;
   while (end > begin && is_blank(line[end - 1])) --end;
@@ -46,6 +35,16 @@ Field trimmed(std::string_view line, std::size_t begin, std::size_t end, int lin
 }
 
 }  // namespace
+
+std::optional<double> number_in(std::string_view text) {
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  if (text.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
+  double value = 0.0;
+  const auto result = std::from_chars(begin, end, value);
+  if (result.ec != std::errc{} || result.ptr != end) return std::nullopt;
+  return value;
+}
 
 void split_at_blanks(std::string_view line, int line_number, std::vector<Field>& fields) {
   fields.clear();
@@ -157,7 +156,7 @@ const std::vector<Field>& LineReader::fields_between_blanks() {
 }
 
 double LineReader::number_or_nan(const Field& field, std::string_view unit) const {
-  const auto value = parsed(field.text);
+  const auto value = number_in(field.text);
   if (!value) not_a_number(field, unit);
   return *value;
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,9 @@ void split_at_blanks(std::string_view line, int line_number, std::vector<Field>&
 /// Fields that stand between separators, without the blanks around them and without one pair of double quotes; inside
 /// quotes the separator is text (a doubled quote stays doubled). An empty line has no field, "a,," has three.
 void split_at(char separator, std::string_view line, int line_number, std::vector<Field>& fields);
+
+/// The number a word holds, "nan" and "inf" among them; empty when it holds none.
+std::optional<double> number_in(std::string_view word);
 
 /// The word in double quotes, cut to a readable length, other than printing bytes shown as "?".
 std::string quoted_word(std::string_view text);

@@ -1,16 +1,14 @@
 #include "io/xyz.h"
 
-#include "io/atomic_file.h"
-#include "io/outgoing_scan.h"
 #include "io/point_stream.h"
-#include "io/text_line.h"
+#include "io/scan_sample.h"
 #include "io/xyz_columns.h"
 
 namespace adit::io {
 namespace {
 
 constexpr std::uint64_t lines_between_checks = 8192;
-constexpr int decimals = 5;  // a hundredth of a millimetre
+constexpr std::uint64_t most_counted_bytes = std::uint64_t{64} << 20;
 
 bool is_comment(std::string_view line) {
   const auto begin = line.find_first_not_of(" \t");
@@ -97,6 +95,15 @@ void expect_columns(const LineReader& lines, std::size_t found, std::size_t want
                "give every line the same columns, and numbers a decimal point");
 }
 
+/// From the present line to the last.
+std::uint64_t counted_points(LineReader& lines, const Progress& progress) {
+  std::uint64_t points = 0;
+  do {
+    if (points++ % lines_between_checks == 0) progress.step(lines.position(), lines.file().size());
+  } while (next_point_line(lines));
+  return points;
+}
+
 }  // namespace
 
 void stream_xyz(const std::filesystem::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
@@ -120,33 +127,27 @@ void stream_xyz(const std::filesystem::path& path, const ReadOptions& options, S
   out.end();
 }
 
-void write_xyz(const std::filesystem::path& path, const ScanData& scan_data, const WriteOptions& options,
-               Progress& progress) {
-  expect_variant(options, {}, path);
-  const OutgoingScan scan(scan_data, PoseGoes::into_points, path);
-  const PointCloud& cloud = scan.cloud();
-  TextLine line(path.extension() == ".csv" ? ',' : ' ');
-  line.add("x").add("y").add("z");
-  if (cloud.has_intensity()) line.add("intensity");
-  if (cloud.has_colour()) line.add("r").add("g").add("b");
-  if (cloud.has_normals()) line.add("nx").add("ny").add("nz");
-  AtomicFile file(path);
-  file.append(line.ended());
-  for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (i % lines_between_checks == 0) progress.step(i, scan.size());
-    line.clear();
-    if (scan.is_float32())
-      for (const float c : cloud.points[i]) line.add(c);
-    else
-      for (const double c : scan.position(i)) line.add(c, decimals);
-    if (cloud.has_intensity()) line.add(cloud.intensity[i]);
-    if (cloud.has_colour())
-      for (const std::uint8_t c : cloud.colour[i]) line.add(unsigned{c});
-    if (cloud.has_normals())
-      for (const float c : scan.normal(i)) line.add(c);
-    file.append(line.ended());
-  }
-  file.commit();
+ScanFileSummary summarise_xyz(const std::filesystem::path& path, Progress& progress) {
+  LineReader lines(path);
+  const Layout layout = sniffed_layout(lines);
+  const std::uint64_t begin = lines.position() - lines.line().size();  // of the first point, but for its line's end
+  ScanFileSummary summary;
+  summary.format = "XYZ text";
+  summary.header.push_back({"columns", std::to_string(layout.columns.count)});
+  ScanSummary scan;
+  scan.name = path.stem().string();
+  scan.attributes = attribute_names(layout.columns.attributes());
+  const std::uint64_t bytes = lines.file().size();
+  scan.points_estimated = bytes > most_counted_bytes;
+  if (!scan.points_estimated) scan.points = counted_points(lines, progress);
+  TextColumns columns{layout.separator, {}, false};
+  for (std::size_t axis = 0; axis < 3; ++axis) columns.xyz[axis] = *layout.columns[static_cast<XyzTarget>(axis)];
+  const ScanSample sample = sample_lines(lines.file(), begin, bytes, columns, scan.points);
+  if (scan.points_estimated && sample.bytes_per_point > 0.0)
+    scan.points = static_cast<std::uint64_t>(static_cast<double>(bytes - begin) / sample.bytes_per_point);
+  take_sample(scan, sample);
+  summary.scans.push_back(std::move(scan));
+  return summary;
 }
 
 }  // namespace adit::io

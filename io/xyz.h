@@ -2,10 +2,13 @@
 // Points as text in columns: XYZ, TXT, CSV.
 
 #include <filesystem>
+#include <memory>
+#include <vector>
 
 #include "core/foundation/progress.h"
 #include "io/scan_formats.h"
 #include "io/scan_stream.h"
+#include "io/scan_writer.h"
 
 namespace adit::io {
 
@@ -15,8 +18,11 @@ namespace adit::io {
 /// All lines have the same number of columns. Errors as stream_scans.
 void stream_xyz(const std::filesystem::path& file, const ReadOptions& options, ScanSink& sink, Progress& progress);
 
-/// With a line of column names; commas between the columns of a .csv file, blanks elsewhere; no variants.
-void write_xyz(const std::filesystem::path& file, const ScanData& scan, const WriteOptions& options,
-               Progress& progress);
+/// From the column names; lines are counted up to 64 MiB, beyond that their number is estimated from a sample.
+ScanFileSummary summarise_xyz(const std::filesystem::path& file, Progress& progress);
+
+/// With a line of column names; commas between the columns of a .csv file, blanks elsewhere.
+std::unique_ptr<ScanWriter> make_xyz_writer(const std::filesystem::path& file, const std::vector<ScanFacts>& scans,
+                                            const WriteOptions& options);
 
 }  // namespace adit::io

@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <vector>
 
+#include "core/foundation/error.h"
 #include "core/foundation/progress.h"
 
 namespace adit::app {
@@ -26,6 +28,11 @@ inline constexpr int exit_cancelled = 130;
 /// For arguments that name a file or a folder: no name is no place to look.
 inline const CLI::Validator some_name([](const std::string& name) { return name.empty() ? "a name is needed" : ""; },
                                       "", "some_name");
+
+/// Thrown by a command that went on with other files where some were bad.
+struct BadFiles {
+  std::vector<Error> errors;
+};
 
 using Action = std::function<int(const CommonOptions&, Progress&)>;
 

@@ -1,5 +1,6 @@
 // adit convert IN OUT: between scan formats.
 
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "app/command_line/command.h"
 #include "core/foundation/error.h"
 #include "io/scan_formats.h"
+#include "io/scan_offset.h"
 
 namespace adit::app {
 namespace {
@@ -19,6 +21,64 @@ void check_another_file(const std::string& in, const std::string& out) {
     throw Error("this is the file that is read; a scan is not overwritten", out, "choose another name for OUT");
 }
 
+/// Hands on one scan of a file (0: all of them) and counts those that it sees.
+class ChosenScan : public io::ScanSink {
+ public:
+  ChosenScan(io::ScanSink& to, std::size_t number) : to_(to), number_(number) {}
+  bool begin(const io::ScanHeader& scan) override {
+    ++seen_;
+    return (number_ == 0 || number_ == seen_) && to_.begin(scan);
+  }
+  void take(io::PointBlock& block) override { to_.take(block); }
+  void end(std::uint64_t no_returns) override { to_.end(no_returns); }
+  std::size_t seen() const { return seen_; }
+
+ private:
+  io::ScanSink& to_;
+  std::size_t number_;
+  std::size_t seen_ = 0;
+};
+
+/// A wrong unit or column shows here; later no scan with such points would be read.
+void expect_near_each_other(const io::ScanFacts& scan) {
+  if (scan.box.isEmpty()) return;
+  const std::array<Eigen::Vector3d, 2> corners = {scan.box.min(), scan.box.max()};
+  io::expect_near_offset(scan.box, io::offset_for(corners, scan.header.where), scan.header.where);
+}
+
+struct Arguments {
+  std::string in;
+  std::string out;
+  io::ReadOptions read;
+  io::WriteOptions write;
+  std::size_t scan = 0;
+};
+
+std::vector<io::ScanFacts> facts_of(const Arguments& arguments, Progress& progress) {
+  io::FactsSink facts;
+  ChosenScan chosen(facts, arguments.scan);
+  io::stream_scans(arguments.in, arguments.read, chosen, progress);
+  if (arguments.scan > chosen.seen())
+    throw Error(
+        "there is no scan " + std::to_string(arguments.scan) + "; the file holds " + std::to_string(chosen.seen()),
+        arguments.in, "choose another with --scan");
+  for (const io::ScanFacts& scan : facts.scans) expect_near_each_other(scan);
+  return std::move(facts.scans);
+}
+
+/// Twice through the file, for a header stands before the points: no memory grows with it.
+std::vector<io::ScanFacts> convert(const Arguments& arguments, Progress& progress) {
+  io::expect_writable(arguments.out, arguments.write);
+  Progress looking = progress.part(0.4, "reading " + arguments.in);
+  std::vector<io::ScanFacts> facts = facts_of(arguments, looking);
+  const auto writer = io::make_scan_writer(arguments.out, facts, arguments.write);
+  Progress writing = progress.part(0.6, "writing " + arguments.out);
+  ChosenScan chosen(*writer, arguments.scan);
+  io::stream_scans(arguments.in, arguments.read, chosen, writing);
+  writer->commit();
+  return facts;
+}
+
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
@@ -28,13 +88,6 @@ std::string joined(const std::vector<std::string>& words) {
 }  // namespace
 
 Action declare_convert(CLI::App& command) {
-  struct Arguments {
-    std::string in;
-    std::string out;
-    io::ReadOptions read;
-    io::WriteOptions write;
-    std::size_t scan = 0;
-  };
   auto arguments = std::make_shared<Arguments>();
   command.add_option("IN", arguments->in, "a scan (" + joined(io::readable_endings()) + ")")
       ->required()
@@ -48,24 +101,16 @@ Action declare_convert(CLI::App& command) {
   command.add_flag("--drop-invalid", arguments->read.drop_invalid, "leave out points that are not finite");
   return [arguments](const CommonOptions& common, Progress& progress) {
     check_another_file(arguments->in, arguments->out);
-    Progress reading = progress.part(0.6, "reading " + arguments->in);
-    std::vector<io::ScanData> scans = io::read_scans(arguments->in, arguments->read, reading);
-    if (arguments->scan > scans.size())
-      throw Error(
-          "there is no scan " + std::to_string(arguments->scan) + "; the file holds " + std::to_string(scans.size()),
-          arguments->in, "choose another with --scan");
-    if (arguments->scan > 0) scans = {std::move(scans[arguments->scan - 1])};
-    std::size_t points = 0;
-    for (const auto& scan : scans) points += scan.cloud.size();
-    Progress writing = progress.part(0.4, "writing " + arguments->out);
-    io::write_scans(arguments->out, scans, arguments->write, writing);
+    const std::vector<io::ScanFacts> scans = convert(*arguments, progress);
+    std::uint64_t points = 0;
+    for (const io::ScanFacts& scan : scans) points += scan.points;
     if (common.json)
       std::printf("%s\n", nlohmann::ordered_json{{"file", arguments->out}, {"points", points}, {"scans", scans.size()}}
                               .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
                               .c_str());
     else if (!common.quiet)
-      std::printf("%s: %zu points in %zu scan%s\n", arguments->out.c_str(), points, scans.size(),
-                  scans.size() == 1 ? "" : "s");
+      std::printf("%s: %llu points in %zu scan%s\n", arguments->out.c_str(), static_cast<unsigned long long>(points),
+                  scans.size(), scans.size() == 1 ? "" : "s");
     return exit_good;
   };
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -26,22 +27,61 @@ json numbers(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+json numbers(const Pose& pose) {
+  json rows = json::array();
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) rows.push_back(pose.matrix()(r, c));
+  return rows;
+}
+
+/// Two digits, for numbers that are not known better.
+double about(double value) {
+  char digits[40];
+  std::snprintf(digits, sizeof digits, "%.1e", value);
+  return std::strtod(digits, nullptr);
+}
+
+json density_json(const io::PointDensity& density) {
+  json out{{"points_per_m2", about(density.points_per_m2)}, {"spacing_mm", about(1000.0 * density.spacing_m())}};
+  out["distance_m"] = density.distance_m ? json(*density.distance_m) : json(nullptr);
+  return out;
+}
+
+json scan_json(const io::ScanSummary& scan) {
+  json out{{"name", scan.name}, {"points", scan.points}};
+  if (scan.points_estimated) out["points_estimated"] = true;
+  if (scan.no_returns) out["no_returns"] = *scan.no_returns;
+  out["pose"] = scan.pose ? numbers(*scan.pose) : json(nullptr);
+  out["min"] = scan.box.isEmpty() ? json(nullptr) : numbers(scan.box.min());
+  out["max"] = scan.box.isEmpty() ? json(nullptr) : numbers(scan.box.max());
+  if (!scan.box_from.empty()) out["box_from"] = scan.box_from;
+  out["attributes"] = scan.attributes;
+  if (scan.columns > 0) out["raster"] = {{"columns", scan.columns}, {"rows", scan.rows}};
+  if (scan.density) out["density"] = density_json(*scan.density);
+  if (scan.sampled_points > 0) out["sampled_points"] = scan.sampled_points;
+  return out;
+}
+
+/// A fact that is said several times (comments) becomes a list.
+json header_json(const std::vector<io::HeaderFact>& facts) {
+  json out = json::object();
+  for (const io::HeaderFact& fact : facts) {
+    if (!out.contains(fact.name))
+      out[fact.name] = fact.text;
+    else if (out[fact.name].is_array())
+      out[fact.name].push_back(fact.text);
+    else
+      out[fact.name] = {out[fact.name], fact.text};
+  }
+  return out;
+}
+
 json scan_info(const fs::path& file, Progress& progress) {
   const io::ScanFileSummary summary = io::summarise_scan_file(file, progress);
-  json out{{"file", file.string()}, {"format", summary.format}, {"scans", json::array()}};
-  for (const io::ScanSummary& scan : summary.scans) {
-    json one{{"name", scan.name}, {"points", scan.points}};
-    one["pose"] = nullptr;
-    if (scan.pose) {
-      one["pose"] = json::array();
-      for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c) one["pose"].push_back(scan.pose->matrix()(r, c));
-    }
-    one["min"] = scan.box.isEmpty() ? json(nullptr) : numbers(scan.box.min());
-    one["max"] = scan.box.isEmpty() ? json(nullptr) : numbers(scan.box.max());
-    one["attributes"] = scan.attributes;
-    out["scans"].push_back(one);
-  }
+  json out{{"file", file.string()}, {"format", summary.format}};
+  if (!summary.header.empty()) out["header"] = header_json(summary.header);
+  out["scans"] = json::array();
+  for (const io::ScanSummary& scan : summary.scans) out["scans"].push_back(scan_json(scan));
   return out;
 }
 
@@ -135,8 +175,16 @@ json info(const fs::path& file, Progress& progress) {
   return scan_info(file, progress);
 }
 
+/// What others wrote, for the terminal: printing letters, and not too many.
+std::string one_line(std::string text) {
+  constexpr std::size_t longest = 300;
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7F) c = '?';
+  return text.size() <= longest ? text : text.substr(0, longest) + " ...";
+}
+
 std::string plain(const json& value) {
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return one_line(value.get<std::string>());
   if (value.is_null()) return "-";
   if (value.is_number_float()) {
     char number[40];
@@ -149,10 +197,18 @@ std::string plain(const json& value) {
   return text;
 }
 
+std::string density_words(const json& density) {
+  return "about " + plain(density["points_per_m2"]) + " points/m2" +
+         (density["distance_m"].is_null() ? "" : " at " + plain(density["distance_m"]) + " m") + ", spacing about " +
+         plain(density["spacing_mm"]) + " mm";
+}
+
 /// Keys and values, indented; lists of objects one below the other.
 void print_plain(const json& object, int indent) {
   for (const auto& [key, value] : object.items()) {
-    if (value.is_object()) {
+    if (key == "density") {
+      std::printf("%*s%s: %s\n", indent, "", key.c_str(), density_words(value).c_str());
+    } else if (value.is_object()) {
       std::printf("%*s%s:\n", indent, "", key.c_str());
       print_plain(value, indent + 2);
     } else if (value.is_array() && !value.empty() && value.front().is_object()) {
@@ -168,20 +224,31 @@ void print_plain(const json& object, int indent) {
   }
 }
 
+void print(const json& content, bool as_json) {
+  if (as_json)
+    std::printf("%s\n", content.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
+  else
+    print_plain(content, 0);
+}
+
 }  // namespace
 
 Action declare_info(CLI::App& command) {
   auto files = std::make_shared<std::vector<std::string>>();
   command.add_option("FILE", *files, "scans, alignments, profiles, control files, jobs")->required()->check(some_name);
   return [files](const CommonOptions& common, Progress& progress) {
+    BadFiles bad;
     for (const std::string& file : *files) {
-      const json content = info(file, progress);
-      if (common.json) {
-        std::printf("%s\n", content.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
-      } else {
-        print_plain(content, 0);
+      Progress part = progress.part(1.0 / static_cast<double>(files->size()), "reading " + file);
+      try {
+        print(info(file, part), common.json);
+      } catch (const Error& error) {
+        bad.errors.push_back(error);
+      } catch (const fs::filesystem_error& error) {
+        bad.errors.emplace_back(error.code().message(), file, "check the name and the permissions");
       }
     }
+    if (!bad.errors.empty()) throw bad;
     return exit_good;
   };
 }

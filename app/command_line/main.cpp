@@ -115,6 +115,9 @@ int acted(const Action& action, const CommonOptions& common) {
   } catch (const Error& error) {
     say(error.what());
     return exit_bad_input;
+  } catch (const BadFiles& bad) {
+    for (const Error& error : bad.errors) say(error.what());
+    return exit_bad_input;
   } catch (const std::filesystem::filesystem_error& error) {
     say(error.path1().string() + ": " + error.code().message() + "; check the name and the permissions");
     return exit_bad_input;

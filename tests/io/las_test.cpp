@@ -72,7 +72,7 @@ TEST(Las, ReadsEveryVersion) {
   for (unsigned minor = 0; minor <= 4; ++minor) {
     const auto file = folder.write("a.las", las_file(minor, 0));
     EXPECT_EQ(tests::read_one(file).cloud.size(), 2U);
-    EXPECT_EQ(summarise_las(file).format, "LAS 1." + std::to_string(minor) + " point format 0");
+    EXPECT_EQ(tests::summary(file).format, "LAS 1." + std::to_string(minor) + " point format 0");
   }
 }
 
@@ -95,7 +95,7 @@ TEST(Las, RoundTrip) {
     EXPECT_LT(tests::largest_distance_m(read, scan), 1e-4);  // half a step of 0.1 mm on each axis is 0.087 mm
     EXPECT_EQ(read.cloud.intensity, scan.cloud.intensity);
     EXPECT_EQ(read.cloud.colour, scan.cloud.colour);
-    const ScanFileSummary summary = summarise_las(folder / "s.las");
+    const ScanFileSummary summary = tests::summary(folder / "s.las");
     EXPECT_EQ(summary.format, colour ? "LAS 1.4 point format 7" : "LAS 1.4 point format 6");
     EXPECT_LT((summary.scans.at(0).box.center() - scan.offset).norm(), 1.0);
   }

@@ -105,7 +105,7 @@ TEST(Pcd, SummaryComesFromTheHeader) {
   ScanData scan = tests::sample_scan(30);
   scan.file_pose = tests::sample_pose();
   tests::write_one(folder / "s.pcd", scan, "compressed");
-  const ScanFileSummary summary = summarise_pcd(folder / "s.pcd");
+  const ScanFileSummary summary = tests::summary(folder / "s.pcd");
   EXPECT_EQ(summary.format, "PCD binary compressed");
   EXPECT_EQ(summary.scans.at(0).points, 30U);
   EXPECT_TRUE(summary.scans[0].pose);

@@ -118,7 +118,7 @@ TEST(Ply, ColourFractionsBecomeBytes) {
 TEST(Ply, SummaryComesFromTheHeader) {
   const tests::TemporaryFolder folder;
   tests::write_one(folder / "s.ply", tests::sample_scan(30), "big");
-  const ScanFileSummary summary = summarise_ply(folder / "s.ply");
+  const ScanFileSummary summary = tests::summary(folder / "s.ply");
   EXPECT_EQ(summary.format, "PLY binary big endian");
   EXPECT_EQ(summary.scans.at(0).points, 30U);
   EXPECT_THAT(summary.scans[0].attributes, ElementsAre("intensity", "colour", "normals"));

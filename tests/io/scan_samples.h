@@ -57,6 +57,11 @@ inline void write_one(const std::filesystem::path& file, const io::ScanData& sca
   io::write_scans(file, {scan}, {variant}, progress);
 }
 
+inline io::ScanFileSummary summary(const std::filesystem::path& file) {
+  Progress progress;
+  return io::summarise_scan_file(file, progress);
+}
+
 /// The words a file is refused with; "(read)" when it is not.
 inline std::string refusal(const std::filesystem::path& file, const io::ReadOptions& options = {}) {
   try {
