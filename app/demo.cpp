@@ -16,6 +16,8 @@
 #include "io/job_json.h"
 #include "io/landxml.h"
 #include "io/scan_formats.h"
+#include "io/scan_writer.h"
+#include "io/spool_file.h"
 #include "io/targets_csv.h"
 #include "io/truth_json.h"
 
@@ -159,20 +161,78 @@ void write_control(const Demo& demo, const std::vector<Pose>& poses, const fs::p
   io::write_file_atomically(folder / "targets.csv", io::targets_csv_text(targets));
 }
 
-void write_scan(const Demo& demo, const Pose& pose, int station, const fs::path& folder, Progress& progress) {
+/// Streams a simulated scan into a sink, in blocks.
+void simulate_scan(const Demo& demo, const Pose& pose, int station, io::ScanSink& sink, Progress& progress) {
   ScannerOptions scanner;
   scanner.seed = demo.options.seed * 1000 + static_cast<std::uint64_t>(station);
   scanner.pulses = demo.options.points;
   const double s = first_station_m + station_spacing_m * station;
   // People walk between the scans.
   const std::vector<Eigen::Vector2d> people{{s + 4.5, 1.9}, {s - 6.0, -2.4}, {s + 9.0, -0.3 * station}};
-  io::ScanData scan;
-  scan.name = "S" + std::to_string(station + 1);
-  Progress casting = progress.part(0.95, "scanning at station " + scan.name);
-  scan.cloud = scan_tunnel(demo.tunnel, pose, scanner, people, casting);
-  Progress writing = progress.part(0.05, "writing " + scan.name);
-  const std::string file = "scans/" + scan.name + ".ply";
-  io::write_scans(folder / file, {std::move(scan)}, {}, writing);
+  io::PointBlock block;
+  const auto hand_out = [&] {
+    if (!block.empty()) sink.take(block);
+    block.clear();
+  };
+  const auto take = [&](const PointCloud& part) {
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      block.positions.push_back(part.points[i].cast<double>());
+      block.intensity.push_back(part.intensity[i]);
+      if (block.size() == io::PointBlock::most_points) hand_out();
+    }
+  };
+  scan_tunnel(demo.tunnel, pose, scanner, people, take, progress);
+  hand_out();
+}
+
+/// Keeps a scan's points on disk until they are counted: headers stand before the points.
+class Spooling : public io::FactsSink {
+ public:
+  explicit Spooling(const fs::path& folder) : spool_(folder) {}
+  void take(io::PointBlock& block) override {
+    FactsSink::take(block);
+    const std::size_t n = block.size();
+    blocks_.push_back({n, spool_.append(block.positions.data(), n * sizeof(Eigen::Vector3d)),
+                       spool_.append(block.intensity.data(), n * sizeof(float))});
+  }
+  void replay(io::ScanSink& to, const Progress& progress) const {
+    io::PointBlock block;
+    for (const Block& from : blocks_) {
+      progress.check();
+      block.positions.resize(from.points);
+      block.intensity.resize(from.points);
+      spool_.read(from.positions_at, block.positions.data(), from.points * sizeof(Eigen::Vector3d));
+      spool_.read(from.intensity_at, block.intensity.data(), from.points * sizeof(float));
+      to.take(block);
+    }
+  }
+
+ private:
+  struct Block {
+    std::size_t points;
+    std::uint64_t positions_at;
+    std::uint64_t intensity_at;
+  };
+  io::SpoolFile spool_;
+  std::vector<Block> blocks_;
+};
+
+void write_scan(const Demo& demo, const Pose& pose, int station, const fs::path& folder, Progress& progress) {
+  io::ScanHeader header;
+  header.name = "S" + std::to_string(station + 1);
+  header.where = "station " + header.name;
+  header.attributes.intensity = true;
+  Spooling points(folder / "scans");
+  Progress casting = progress.part(0.95, "scanning at station " + header.name);
+  points.begin(header);
+  simulate_scan(demo, pose, station, points, casting);
+  points.end(0);
+  Progress writing = progress.part(0.05, "writing " + header.name);
+  const auto writer = io::make_scan_writer(folder / "scans" / (header.name + ".ply"), points.scans, {});
+  writer->begin(header);
+  points.replay(*writer, writing);
+  writer->end(0);
+  writer->commit();
 }
 
 Job demo_job(const Demo& demo, const std::vector<Pose>& poses) {

@@ -3,32 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <vector>
 
 #include "core/foundation/progress.h"
+#include "io/spool_file.h"
 #include "io/stored_points.h"
 
 namespace adit::io {
-
-/// A file without a name in a folder; its space is free again when the program ends, however it ends.
-class SpoolFile {
- public:
-  explicit SpoolFile(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  ~SpoolFile();
-  SpoolFile(const SpoolFile&) = delete;
-  SpoolFile& operator=(const SpoolFile&) = delete;
-
-  /// Adds bytes; returns their offset. Error when the disk is full. The file is made by the first call.
-  std::uint64_t append(const void* bytes, std::size_t count);
-  void read(std::uint64_t offset, void* to, std::size_t count) const;
-
- private:
-  std::filesystem::path folder_;
-  int descriptor_ = -1;
-  std::uint64_t size_ = 0;
-};
 
 /// Points sorted along the curve: in memory, or column by column in a spool file.
 struct SortedRun {
