@@ -1,10 +1,9 @@
 #include "io/las_description.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <string>
-
-#include "core/foundation/options.h"
 
 namespace adit::io {
 namespace {
@@ -22,7 +21,9 @@ std::string text_at(const std::vector<std::byte>& bytes, std::size_t offset, std
 }
 
 std::string vector_text(const Eigen::Vector3d& v) {
-  return short_number(v.x()) + " " + short_number(v.y()) + " " + short_number(v.z());
+  char text[100];
+  std::snprintf(text, sizeof text, "%.12g %.12g %.12g", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no -0
+  return text;
 }
 
 /// The header holds the day of the year, from 1.

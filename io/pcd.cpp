@@ -126,6 +126,11 @@ void put_text_colour(FilePoint& point, const PcdField& field, double value) {
     put_colour(point, static_cast<std::uint32_t>(static_cast<std::int64_t>(value)));
 }
 
+/// The header says what the number was before it became text: the same point comes out of all encodings.
+double as_declared(double value, const PcdField& field) {
+  return field.type == 'F' && field.size == 4 ? static_cast<double>(static_cast<float>(value)) : value;
+}
+
 void read_text(const InputFile& file, const PcdHeader& header, PointStream& out, const Progress& progress) {
   LineReader lines(file, header.body_offset, header.body_line);
   FilePoint point;
@@ -142,7 +147,7 @@ void read_text(const InputFile& file, const PcdHeader& header, PointStream& out,
           "export the file again");
     std::size_t next = 0;
     for (const PcdField& field : header.fields) {
-      const double value = field.target == PcdTarget::none ? 0.0 : lines.number_or_nan(words[next]);
+      const double value = field.target == PcdTarget::none ? 0.0 : as_declared(lines.number_or_nan(words[next]), field);
       if (field.target == PcdTarget::packed_colour)
         put_text_colour(point, field, value);
       else

@@ -171,6 +171,11 @@ void next_row(LineReader& lines, const std::string& of) {
                 "the file is cut short; copy or export it again");
 }
 
+/// The header says what the number was before it became text: the same point comes out of all encodings.
+double as_declared(double value, PlyType type) {
+  return type == PlyType::float32 ? static_cast<double>(static_cast<float>(value)) : value;
+}
+
 void read_text_row(LineReader& lines, const std::vector<Column>& columns, FilePoint& point) {
   const std::vector<Field>& fields = lines.fields_between_blanks();
   std::size_t next = 0;
@@ -182,7 +187,8 @@ void read_text_row(LineReader& lines, const std::vector<Column>& columns, FilePo
       next += 1 + static_cast<std::size_t>(length);
     } else {
       const Field& field = fields[next++];
-      if (column.target != PlyTarget::none) put(point, column.target, column.type, lines.number_or_nan(field));
+      if (column.target != PlyTarget::none)
+        put(point, column.target, column.type, as_declared(lines.number_or_nan(field), column.type));
     }
   }
   if (next != fields.size()) lines.fail("the line holds other values than the header says", "export the file again");

@@ -239,9 +239,8 @@ Action declare_info(CLI::App& command) {
   return [files](const CommonOptions& common, Progress& progress) {
     BadFiles bad;
     for (const std::string& file : *files) {
-      Progress part = progress.part(1.0 / static_cast<double>(files->size()), "reading " + file);
       try {
-        print(info(file, part), common.json);
+        print(info(file, progress), common.json);
       } catch (const Error& error) {
         bad.errors.push_back(error);
       } catch (const fs::filesystem_error& error) {

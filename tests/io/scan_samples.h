@@ -57,6 +57,17 @@ inline void write_one(const std::filesystem::path& file, const io::ScanData& sca
   io::write_scans(file, {scan}, {variant}, progress);
 }
 
+/// From file to file as a stream, as adit convert does.
+inline void convert(const std::filesystem::path& in, const std::filesystem::path& out,
+                    const io::WriteOptions& options = {}) {
+  Progress progress;
+  io::FactsSink facts;
+  io::stream_scans(in, {}, facts, progress);
+  const auto writer = io::make_scan_writer(out, facts.scans, options);
+  io::stream_scans(in, {}, *writer, progress);
+  writer->commit();
+}
+
 inline io::ScanFileSummary summary(const std::filesystem::path& file) {
   Progress progress;
   return io::summarise_scan_file(file, progress);
