@@ -69,23 +69,51 @@ std::string mend_for(int error_number) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path target) : target_(followed(target)) {
+AtomicPath::AtomicPath(fs::path target) : target_(followed(target)) {
   std::error_code ignored;
   if (target_.filename().empty() || fs::is_directory(target_, ignored))
     throw Error("this is a folder, not a file", target_.string(), "name a file inside it");
   if (!fs::is_directory(folder_of(target_), ignored))
     throw Error("there is no folder " + folder_of(target_).string(), target_.string(), "make the folder first");
-  for (unsigned attempt = 0; descriptor_ < 0 && attempt < 100; ++attempt) {
+  int descriptor = -1;
+  for (unsigned attempt = 0; descriptor < 0 && attempt < 100; ++attempt) {
     temporary_ = temporary_name(target_, attempt);
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0 && errno != EEXIST) fail("the file cannot be made", errno);
+    descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0 && errno != EEXIST) fail("the file cannot be made", errno);
   }
-  if (descriptor_ < 0) fail("the file cannot be made", EEXIST);
+  if (descriptor < 0) fail("the file cannot be made", EEXIST);
+  ::close(descriptor);
+}
+
+AtomicPath::~AtomicPath() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicPath::commit() {
+  const int file = ::open(temporary_.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) fail("the file cannot be written", errno);
+  const int synced = ::fsync(file) == 0 ? 0 : errno;
+  ::close(file);
+  if (synced != 0) fail("the file cannot be written", synced);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("the file cannot be given its name", errno);
+  temporary_.clear();
+  const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  ::fsync(folder);  // some file systems refuse this for folders; the file itself is safe by then
+  ::close(folder);
+}
+
+void AtomicPath::fail(const std::string& what_is_wrong, int error_number) const {
+  throw Error(what_is_wrong + " (" + std::strerror(error_number) + ")", target_.string(), mend_for(error_number));
+}
+
+AtomicFile::AtomicFile(fs::path target) : path_(std::move(target)) {
+  descriptor_ = ::open(path_.temporary().c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor_ < 0) path_.fail("the file cannot be made", errno);
 }
 
 AtomicFile::~AtomicFile() {
   close();
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
 void AtomicFile::append(std::string_view bytes) {
@@ -104,14 +132,8 @@ void AtomicFile::append(std::span<const std::byte> bytes) {
 
 void AtomicFile::commit() {
   flush();
-  if (::fsync(descriptor_) != 0) fail("the file cannot be written", errno);
   close();
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("the file cannot be given its name", errno);
-  temporary_.clear();
-  const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return;
-  ::fsync(folder);  // some file systems refuse this for folders; the file itself is safe by then
-  ::close(folder);
+  path_.commit();
 }
 
 void AtomicFile::flush() {
@@ -123,7 +145,7 @@ void AtomicFile::write_through(const char* bytes, std::size_t count) {
   while (count > 0) {
     const ssize_t written = ::write(descriptor_, bytes, count);
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("the file cannot be written", errno);
+    if (written < 0) path_.fail("the file cannot be written", errno);
     start_writeback(static_cast<std::uint64_t>(written));
     bytes += written;
     count -= static_cast<std::size_t>(written);
@@ -143,10 +165,6 @@ void AtomicFile::start_writeback(std::uint64_t written) {
 void AtomicFile::close() {
   if (descriptor_ >= 0) ::close(descriptor_);
   descriptor_ = -1;
-}
-
-void AtomicFile::fail(const std::string& what_is_wrong, int error_number) const {
-  throw Error(what_is_wrong + " (" + std::strerror(error_number) + ")", target_.string(), mend_for(error_number));
 }
 
 void remove_leftovers(const fs::path& folder) {

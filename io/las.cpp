@@ -11,13 +11,6 @@ namespace {
 
 constexpr std::uint64_t points_between_checks = 8192;
 
-Attributes attributes_of(const LasHeader& header) {
-  Attributes attributes;
-  attributes.intensity = true;
-  attributes.colour = las_point_format(header.point_format).colour_offset.has_value();
-  return attributes;
-}
-
 Eigen::Vector3d position_in(const LasHeader& header, const std::byte* record) {
   const Eigen::Array3d steps(little<std::int32_t>(record), little<std::int32_t>(record + 4),
                              little<std::int32_t>(record + 8));
@@ -39,6 +32,13 @@ bool colours_fill_16_bits(const InputFile& file, const LasHeader& header, const 
 
 }  // namespace
 
+Attributes las_attributes(const LasHeader& header) {
+  Attributes attributes;
+  attributes.intensity = true;
+  attributes.colour = las_point_format(header.point_format).colour_offset.has_value();
+  return attributes;
+}
+
 bool is_las(std::string_view beginning) {
   return beginning.starts_with("LASF");
 }
@@ -46,7 +46,7 @@ bool is_las(std::string_view beginning) {
 void stream_las(const std::filesystem::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
   const InputFile file(path);
   const LasHeader header = read_las_header(file);
-  const Attributes attributes = attributes_of(header);
+  const Attributes attributes = las_attributes(header);
   const std::uint16_t colour_offset = las_point_format(header.point_format).colour_offset.value_or(0);
   PointStream out({path.stem().string(), file.name(), attributes, std::nullopt, header.points, header.box}, options,
                   NanMeans::invalid, sink);
@@ -67,22 +67,28 @@ void stream_las(const std::filesystem::path& path, const ReadOptions& options, S
   out.end();
 }
 
-ScanFileSummary summarise_las(const std::filesystem::path& path, Progress&) {
-  const InputFile file(path);
-  const LasHeader header = read_las_header(file);
+ScanFileSummary las_summary(const InputFile& file, const LasHeader& header, const std::string& format) {
   ScanFileSummary summary;
   summary.format =
-      "LAS 1." + std::to_string(header.minor_version) + " point format " + std::to_string(header.point_format);
+      format + " 1." + std::to_string(header.minor_version) + " point format " + std::to_string(header.point_format);
   summary.header = las_description(file, header);
   ScanSummary scan;
-  scan.name = path.stem().string();
+  scan.name = file.path().stem().string();
   scan.points = header.points;
   scan.box = header.box;
   if (!scan.box.isEmpty()) scan.box_from = "header";
-  scan.attributes = attribute_names(attributes_of(header));
-  take_sample(scan, sample_records(file, header.points_offset, header.record_bytes, header.points,
-                                   [&](const std::byte* record) { return position_in(header, record); }));
+  scan.attributes = attribute_names(las_attributes(header));
   summary.scans.push_back(std::move(scan));
+  return summary;
+}
+
+ScanFileSummary summarise_las(const std::filesystem::path& path, Progress&) {
+  const InputFile file(path);
+  const LasHeader header = read_las_header(file);
+  ScanFileSummary summary = las_summary(file, header, "LAS");
+  take_sample(summary.scans.front(),
+              sample_records(file, header.points_offset, header.record_bytes, header.points,
+                             [&](const std::byte* record) { return position_in(header, record); }));
   return summary;
 }
 

@@ -57,10 +57,14 @@ class HeaderBytes {
   std::vector<std::byte> bytes_;
 };
 
-void take_point_format(const HeaderBytes& bytes, LasHeader& header) {
-  const unsigned stored = bytes.at<std::uint8_t>(104);
-  if ((stored & 0xC0U) != 0)
-    bytes.fail(104, "the points are compressed (LAZ)", "reading LAZ comes with a later version; convert to LAS");
+void take_point_format(const HeaderBytes& bytes, LasPoints kept, LasHeader& header) {
+  const unsigned marked = bytes.at<std::uint8_t>(104);
+  const unsigned stored = marked & 0x3FU;
+  const bool compressed = stored != marked;
+  if (compressed && kept == LasPoints::plain)
+    bytes.fail(104, "the points are compressed (LAZ)", "give the file the ending .laz");
+  if (!compressed && kept == LasPoints::compressed)
+    bytes.fail(104, "the points are not compressed (LAS)", "give the file the ending .las");
   if (stored >= formats.size())
     bytes.fail(104, "point format " + std::to_string(stored) + " is not known", "export with point format 0 to 8");
   header.point_format = stored;
@@ -105,10 +109,15 @@ std::uint64_t end_of_points(const InputFile& file, const HeaderBytes& bytes, con
   return end;
 }
 
-void expect_points(const InputFile& file, const HeaderBytes& bytes, LasHeader& header) {
+void take_points_offset(const HeaderBytes& bytes, LasHeader& header) {
+  header.header_bytes = bytes.at<std::uint16_t>(94);
   header.points_offset = bytes.at<std::uint32_t>(96);
-  if (header.points_offset < bytes.at<std::uint16_t>(94))
+  if (header.points_offset < header.header_bytes)
     bytes.fail(96, "the points begin inside the header, at byte " + std::to_string(header.points_offset), damaged);
+  header.records = bytes.at<std::uint32_t>(100);
+}
+
+void expect_points(const InputFile& file, const HeaderBytes& bytes, const LasHeader& header) {
   const std::uint64_t end = end_of_points(file, bytes, header);
   const std::uint64_t room = end > header.points_offset ? (end - header.points_offset) / header.record_bytes : 0;
   const std::string counts =
@@ -116,7 +125,6 @@ void expect_points(const InputFile& file, const HeaderBytes& bytes, LasHeader& h
   if (header.points > room) bytes.fail(header.points_offset, counts, "the file is cut short; copy or export it again");
   if (header.points < room)
     bytes.fail(107, counts, "the program that wrote it did not end well; repair the header or export it again");
-  if (header.points == 0) bytes.fail(107, "the scan holds no points", "export the scan again with its points");
 }
 
 }  // namespace
@@ -128,14 +136,16 @@ LasPointFormat las_point_format(unsigned number) {
   return format;
 }
 
-LasHeader read_las_header(const InputFile& file) {
+LasHeader read_las_header(const InputFile& file, LasPoints kept) {
   const HeaderBytes bytes(file);
   LasHeader header;
   header.minor_version = bytes.at<std::uint8_t>(25);
-  take_point_format(bytes, header);
+  take_point_format(bytes, kept, header);
   take_count(bytes, header);
   take_coordinates(bytes, header);
-  expect_points(file, bytes, header);
+  take_points_offset(bytes, header);
+  if (kept == LasPoints::plain) expect_points(file, bytes, header);
+  if (header.points == 0) bytes.fail(107, "the scan holds no points", "export the scan again with its points");
   return header;
 }
 

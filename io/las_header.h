@@ -25,13 +25,19 @@ struct LasHeader {
   unsigned point_format = 0;
   std::uint16_t record_bytes = 0;
   std::uint64_t points = 0;
+  std::uint16_t header_bytes = 0;  ///< variable length records begin behind them
+  std::uint32_t records = 0;       ///< how many variable length records
   std::uint64_t points_offset = 0;
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   BoundingBox box;  ///< as the header says it
 };
 
-/// Reads and checks a header: version, point format, scale, and a count that the file holds exactly.
-LasHeader read_las_header(const InputFile& file);
+/// How the points of a file are kept: one record after the other (LAS), or compressed (LAZ).
+enum class LasPoints { plain, compressed };
+
+/// Reads and checks a header: version, point format, scale, and for plain points a count that the file holds exactly.
+/// Error when the points are kept in the other way.
+LasHeader read_las_header(const InputFile& file, LasPoints kept = LasPoints::plain);
 
 }  // namespace adit::io

@@ -5,6 +5,7 @@
 #include "io/atomic_file.h"
 #include "io/intensity_range.h"
 #include "io/las.h"
+#include "io/las_grid.h"
 
 namespace adit::io {
 namespace {
@@ -12,27 +13,13 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "LAS files are written as memory holds the numbers");
 
 constexpr std::size_t header_bytes = 375;
-constexpr double finest_scale_m = 1e-4;
 
 template <typename T>
 void put(std::string& bytes, std::size_t offset, T value) {
   std::memcpy(bytes.data() + offset, &value, sizeof(T));
 }
 
-/// A whole-metre middle, and the finest step of powers of ten that keeps every coordinate within 32 bits.
-struct Grid {
-  Eigen::Vector3d offset;
-  double scale_m = finest_scale_m;
-};
-
-Grid grid_for(const BoundingBox& box) {
-  Grid grid{box.center().array().round(), finest_scale_m};
-  const double farthest = (box.max() - grid.offset).cwiseMax(grid.offset - box.min()).maxCoeff();
-  while (farthest / grid.scale_m > 2.147e9) grid.scale_m *= 10.0;
-  return grid;
-}
-
-std::string header_of(const ScanFacts& scan, const Grid& grid) {
+std::string header_of(const ScanFacts& scan, const LasGrid& grid) {
   const bool colour = scan.header.attributes.colour;
   std::string bytes(header_bytes, '\0');
   std::memcpy(bytes.data(), "LASF", 4);
@@ -61,7 +48,7 @@ class LasWriter : public ScanWriter {
  public:
   LasWriter(const std::filesystem::path& path, const ScanFacts& scan)
       : scan_(scan),
-        grid_(grid_for(scan.box)),
+        grid_(las_grid(scan.box)),
         range_(intensity_range(scan, 65535.0, true)),
         file_(path),
         record_(scan.header.attributes.colour ? 36 : 30, '\0') {}
@@ -93,7 +80,7 @@ class LasWriter : public ScanWriter {
   }
 
   ScanFacts scan_;
-  Grid grid_;
+  LasGrid grid_;
   IntensityRange range_;
   AtomicFile file_;
   std::string record_;

@@ -9,7 +9,9 @@
 #include "io/atomic_file.h"
 #include "io/bytes.h"
 #include "io/checked_writer.h"
+#include "io/e57.h"
 #include "io/las.h"
+#include "io/laz.h"
 #include "io/pcd.h"
 #include "io/ply.h"
 #include "io/pts.h"
@@ -47,6 +49,7 @@ struct ScanFormat {
   PoseGoes pose_goes = PoseGoes::into_points;
   bool holds_several_scans = false;
   std::vector<std::string> variants;
+  bool built_in = true;  ///< false: every function refuses the file by name
 };
 
 constexpr auto into_points = PoseGoes::into_points;
@@ -63,6 +66,17 @@ std::vector<ScanFormat> make_formats() {
        beside_points,
        false,
        {"ascii", "binary", "compressed"}},
+      {{".e57"},
+       is_e57,
+       stream_e57,
+       summarise_e57,
+       make_e57_writer,
+       beside_points,
+       true,
+       {"scaled", "double"},
+       e57_is_built_in()},
+      // In front of LAS: is_las() knows no difference.
+      {{".laz"}, is_laz, stream_laz, summarise_laz, make_laz_writer, into_points, false, {}, laz_is_built_in()},
       {{".las"}, is_las, stream_las, summarise_las, make_las_writer, into_points, false, {}},
       {{".pts"}, nullptr, stream_pts, summarise_pts, make_pts_writer, into_points, false, {}},
       {{".ptx"}, nullptr, stream_ptx, summarise_ptx, make_ptx_writer, beside_points, true, {}},
@@ -90,7 +104,7 @@ const ScanFormat* format_by_ending(const fs::path& file) {
 }
 
 const ScanFormat* format_by_beginning(const InputFile& file) {
-  const std::string beginning = file.beginning(64);
+  const std::string beginning = file.beginning(128);
   for (const ScanFormat& format : formats())
     if (format.begins != nullptr && format.begins(beginning)) return &format;
   return nullptr;
@@ -116,6 +130,7 @@ const ScanFormat& writable_format(const fs::path& file, const WriteOptions& opti
   if (format == nullptr || format->make_writer == nullptr)
     throw Error("the ending names no scan format" + std::string(format == nullptr ? "" : " that is written"),
                 file.string(), "known are " + listed(writable_endings()));
+  if (!format->built_in) format->make_writer(file, {}, options);
   const std::vector<std::string>& known = format->variants;
   if (!options.variant.empty() && std::find(known.begin(), known.end(), options.variant) == known.end())
     throw Error("the format has no variant \"" + options.variant + "\"", file.string(),
@@ -127,8 +142,6 @@ const ScanFormat& writable_format(const fs::path& file, const WriteOptions& opti
 const ScanFormat& format_of(const fs::path& path) {
   const InputFile file(path);
   if (const ScanFormat* format = format_by_beginning(file)) return *format;
-  if (ending_of(path) == ".e57")
-    throw Error("this is an E57 file", path.string(), "reading E57 comes with a later version; convert to PLY or LAS");
   const ScanFormat* format = format_by_ending(path);
   if (format == nullptr)
     throw Error("the ending names no scan format", path.string(), "known are " + listed(readable_endings()));
@@ -192,11 +205,15 @@ void write_scans(const fs::path& file, const Scans& scans, const WriteOptions& o
 }
 
 std::vector<std::string> readable_endings() {
-  return endings_that([](const ScanFormat&) { return true; });
+  return endings_that([](const ScanFormat& format) { return format.built_in; });
 }
 
 std::vector<std::string> writable_endings() {
-  return endings_that([](const ScanFormat& format) { return format.make_writer != nullptr; });
+  return endings_that([](const ScanFormat& format) { return format.built_in && format.make_writer != nullptr; });
+}
+
+std::vector<std::string> endings_not_built_in() {
+  return endings_that([](const ScanFormat& format) { return !format.built_in; });
 }
 
 }  // namespace adit::io

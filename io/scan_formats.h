@@ -87,15 +87,16 @@ ScanFileSummary summarise_scan_file(const std::filesystem::path& file, Progress&
 
 /// How to write.
 struct WriteOptions {
-  std::string variant;  ///< "" is the format's default; PLY: ascii, little, big; PCD: ascii, binary, compressed
+  std::string variant;  ///< "" is the format's default; PLY: ascii, little, big; PCD: ascii, binary, compressed; E57:
+                        ///< scaled, double
 };
 
 /// Error unless scans can be written to this file: its ending, the variant, the folder.
 void expect_writable(const std::filesystem::path& file, const WriteOptions& options);
 
-/// The writer of a new file, by its ending (.ply .pcd .las .pts .ptx .xyz .csv). Several scans only where the format
-/// can (PTX); elsewhere Error. Formats without a pose get the points moved by file_pose where there is one. What is
-/// handed in must be what the facts were taken from; Error otherwise.
+/// The writer of a new file, by its ending (.ply .pcd .e57 .laz .las .pts .ptx .xyz .csv). Several scans only where the
+/// format can (E57, PTX); elsewhere Error. Formats without a pose get the points moved by file_pose where there is one.
+/// What is handed in must be what the facts were taken from; Error otherwise.
 std::unique_ptr<ScanWriter> make_scan_writer(const std::filesystem::path& file, std::vector<ScanFacts> scans,
                                              const WriteOptions& options);
 
@@ -106,5 +107,7 @@ void write_scans(const std::filesystem::path& file, const std::vector<ScanData>&
 /// Endings that can be read and written, for help texts.
 std::vector<std::string> readable_endings();
 std::vector<std::string> writable_endings();
+/// Endings that Adit knows but this build does not, for want of a library.
+std::vector<std::string> endings_not_built_in();
 
 }  // namespace adit::io

@@ -21,6 +21,8 @@ CORE_ORDER = {"foundation": 0, "geometry": 1, "design": 2, "georeference": 3, "r
 # A library's headers may be named only in files that match.
 HEAVY = {
     r"^pcl/": r"_pcl\.(cpp|h)$|^io/pcd",
+    r"^E57": r"^io/\w+_e57format\.(cpp|h)$",
+    r"^laszip/": r"^io/\w+_laszip\.(cpp|h)$",
     r"^CGAL/": r"_cgal\.cpp$",
     r"^ceres/": r"_ceres\.cpp$",
     r"^polyclipping/": r"_clipper\.cpp$",

@@ -95,7 +95,8 @@ Action declare_convert(CLI::App& command) {
   command.add_option("OUT", arguments->out, "its new file (" + joined(io::writable_endings()) + ")")
       ->required()
       ->check(some_name);
-  command.add_option("--variant", arguments->write.variant, "PLY: ascii, little, big; PCD: ascii, binary, compressed");
+  command.add_option("--variant", arguments->write.variant,
+                     "PLY: ascii, little, big; PCD: ascii, binary, compressed; E57: scaled, double");
   command.add_option("--scan", arguments->scan, "which scan of a file that holds several, from 1")
       ->check(CLI::Range(1, 1000000));
   command.add_flag("--drop-invalid", arguments->read.drop_invalid, "leave out points that are not finite");

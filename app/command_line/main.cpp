@@ -19,6 +19,7 @@
 #include "app/command_line/terminal_progress.h"
 #include "app/version.h"
 #include "core/foundation/error.h"
+#include "io/scan_formats.h"
 
 namespace {
 
@@ -68,6 +69,14 @@ std::vector<Command> commands() {
       {"info", "what a scan, alignment, profile, control file or job holds", declare_info},
       {"convert", "a scan into another format", declare_convert},
   };
+}
+
+/// The version, and what this build lacks.
+std::string version_words() {
+  std::string absent;
+  for (const std::string& ending : io::endings_not_built_in()) absent += (absent.empty() ? "" : ", ") + ending;
+  return std::string("adit ") + version +
+         (absent.empty() ? "" : "\nnot built in: " + absent + " (run packaging/setup and build again)");
 }
 
 /// One line, whatever the words hold.
@@ -138,7 +147,7 @@ int main(int argc, char** argv) {
   std::signal(SIGALRM, on_patience_gone);
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app("Adit: tunnel scans in, defensible overbreak and volumes out.", "adit");
-  app.set_version_flag("--version", std::string("adit ") + version);
+  app.set_version_flag("--version", version_words());
   app.require_subcommand(1);
   CommonOptions common;
   std::vector<std::pair<CLI::App*, Action>> actions;

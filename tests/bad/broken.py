@@ -89,6 +89,14 @@ def las(path, claimed=None, kept=None):
     path.write_bytes(data[: int(kept)] if kept else data)
 
 
+def laz(path):
+    """Plain points under the mark of compressed ones."""
+    las(path)
+    data = bytearray(path.read_bytes())
+    data[104] |= 0x80
+    path.write_bytes(data)
+
+
 def folder(path):
     path.mkdir(parents=True)
 
@@ -143,6 +151,6 @@ def nested_elements(path, count):
     path.write_text("<LandXML>" + "<a>" * int(count))
 
 
-KINDS = {f.__name__: f for f in (tunnel, first_points, with_decimal_commas, copied_points, ply, ply_of_nan, pcd, las, folder, link, pipe,
+KINDS = {f.__name__: f for f in (tunnel, first_points, with_decimal_commas, copied_points, ply, ply_of_nan, pcd, las, laz, folder, link, pipe,
                                  nothing, hexadecimal, bytes_in_front, windows_lines, moved, removed, unreadable, without_writing,
                                  nested_brackets, nested_elements)}

@@ -9,6 +9,7 @@ A case is a folder here with a file `expect`; its other files are laid over a co
     leaves FILE       must be there afterwards
     changes FILE      an input that the command may write
     make KIND NAME [WORDS]    a file made for the case; kinds are the functions of broken.py
+    needs ENDING      a format that a build may lack; left out where it does
     user              needs a user who is not root: root runs it as nobody
     # ...             why
 patch.json, where a case has one, is merged into the base's job.json (RFC 7396: null removes a key).
@@ -39,7 +40,7 @@ class Case:
         self.name = folder.name
         self.folder = folder
         self.command, self.exit, self.message, self.output = "run .", 2, None, None
-        self.leaves, self.changes, self.make, self.user = [], [], [], False
+        self.leaves, self.changes, self.make, self.user, self.needs = [], [], [], False, None
         for number, line in enumerate((folder / "expect").read_text().splitlines(), 1):
             key, _, words = line.strip().partition(" ")
             if not key or key.startswith("#"):
@@ -52,7 +53,7 @@ class Case:
                 self.user = True
             elif key == "exit":
                 self.exit = int(words)
-            elif key in ("command", "message", "output"):
+            elif key in ("command", "message", "output", "needs"):
                 setattr(self, key, words)
             else:
                 sys.exit("%s/expect:%d: unknown word %s" % (folder, number, key))
@@ -169,6 +170,8 @@ def main():
     words = [w for w in sys.argv[2:] if w != "-v"]
     cases = [Case(p.parent) for p in sorted(HERE.glob("*/expect"))]
     cases = [c for c in cases if not words or any(w in c.name for w in words)]
+    version = subprocess.run([adit, "--version"], capture_output=True, text=True).stdout
+    cases = [c for c in cases if c.needs is None or c.needs not in version]
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for case, (faults, said) in zip(cases, pool.map(lambda c: run(c, adit), cases)):

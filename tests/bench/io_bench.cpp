@@ -10,9 +10,53 @@
 #include "io/scan_formats.h"
 #include "io/store_writer.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/library_loops.h"
 #include "tests/temporary_folder.h"
 
 namespace adit::bench {
+
+namespace {
+
+/// Every point decoded and handed on, nothing kept.
+class Nowhere : public io::ScanSink {
+ public:
+  bool begin(const io::ScanHeader&) override { return true; }
+  void take(io::PointBlock&) override {}
+  void end(std::uint64_t) override {}
+};
+
+void bench_libraries(const io::ScanData& scan) {
+  struct Row {
+    const char* name;
+    std::uint64_t (*decode)(const std::filesystem::path&);
+  };
+  const std::vector<Row> rows = {
+#ifdef ADIT_BENCH_E57FORMAT
+      {"a.e57", decode_e57},
+#endif
+#ifdef ADIT_BENCH_LASZIP
+      {"a.laz", decode_laz},
+#endif
+  };
+  const tests::TemporaryFolder folder;
+  const double millions = static_cast<double>(scan.cloud.size()) / 1e6;
+  Progress progress;
+  std::printf("\n### Decoding of %.2f million points, beside the library alone\n\n", millions);
+  std::printf("| file | bytes a point | write Mpts/s | stream Mpts/s | library Mpts/s | time against library |\n");
+  std::printf("|---|---|---|---|---|---|\n");
+  for (const Row& row : rows) {
+    const auto file = folder / row.name;
+    const double write = seconds_of(1, [&] { io::write_scans(file, {scan}, {}, progress); });
+    Nowhere nowhere;
+    const double ours = seconds_of(5, [&] { io::stream_scans(file, {}, nowhere, progress); });
+    const double theirs = seconds_of(5, [&] { row.decode(file); });
+    std::printf("| %s | %.1f | %.1f | %.2f | %.2f | %+.0f %% |\n", row.name + 2,
+                static_cast<double>(std::filesystem::file_size(file)) / millions / 1e6, millions / write,
+                millions / ours, millions / theirs, 100.0 * (ours / theirs - 1.0));
+  }
+}
+
+}  // namespace
 
 void bench_io() {
   const tests::TemporaryFolder folder;
@@ -46,6 +90,8 @@ void bench_io() {
     for (std::size_t t = 0; t < points.tile_count(); ++t) points.read(t);
   });
   std::printf("| point store | %.1f | %.1f | - |\n", millions / write, millions / read);
+  scan.cloud = tests::scan_at(rock, tests::station(rock.design(), 36.0, 0.0), 1, 2000000);
+  bench_libraries(scan);
 }
 
 }  // namespace adit::bench

@@ -124,17 +124,6 @@ TEST(ScanFormatsData, LasBoxesAgreeWithTheirHeaders) {
   }
 }
 
-TEST(ScanFormatsData, LazIsRefusedByName) {
-  ADIT_NEED_REAL_DATA();
-  for (const auto& entry : std::filesystem::directory_iterator(tests::real_data() / "formats/laz")) {
-    if (entry.path().extension() == ".laz") {
-      EXPECT_THAT(tests::refusal(entry.path()), testing::HasSubstr("compressed (LAZ)")) << entry.path();
-    } else {
-      EXPECT_EQ(tests::read_one(entry.path()).cloud.size(), 1065U);
-    }
-  }
-}
-
 TEST(ScanFormatsData, Pcd) {
   ADIT_NEED_REAL_DATA();
   expect_as_in(

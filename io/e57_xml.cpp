@@ -1,0 +1,96 @@
+#include "io/e57_xml.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "core/foundation/error.h"
+
+namespace adit::io {
+namespace {
+
+constexpr std::uint64_t header_bytes = 48;
+constexpr std::uint64_t page_bytes = 1024;
+constexpr std::uint64_t page_content_bytes = 1020;  // the rest is the page's checksum
+constexpr int deepest = 64;
+constexpr const char* damaged = "the file is damaged; copy or export it again";
+
+/// The XML without the checksums of its pages. Its length is compared with the file's before memory is taken.
+std::string read_xml(const InputFile& file) {
+  const std::vector<std::byte> header = file.read(0, header_bytes, "the E57 header");
+  const auto number = [&](std::size_t offset) { return little<std::uint64_t>(header.data() + offset); };
+  const auto fail = [&](std::uint64_t offset, const std::string& words, const char* mend) {
+    throw Error(words, file.at_byte(offset), mend);
+  };
+  if (file.beginning(8) != "ASTM-E57")
+    fail(0, "this is no E57 file (it does not begin with ASTM-E57)", "check the file's ending");
+  if (number(16) != file.size())
+    fail(16,
+         "the header says " + std::to_string(number(16)) + " bytes, the file has " + std::to_string(file.size()) +
+             (number(16) > file.size() ? ": it is cut short" : ""),
+         damaged);
+  if (number(40) != page_bytes) fail(40, "pages of " + std::to_string(number(40)) + " bytes are not known", damaged);
+  const std::uint64_t begin = number(24);
+  const std::uint64_t length = number(32);
+  if (begin >= file.size() || begin % page_bytes >= page_content_bytes || begin < header_bytes)
+    fail(24, "the XML part cannot stand at byte " + std::to_string(begin), damaged);
+  if (length == 0 || length > file.size() - begin)
+    fail(32, "the XML part cannot have " + std::to_string(length) + " bytes", damaged);
+  std::string xml;
+  xml.reserve(length);
+  for (std::uint64_t at = begin; xml.size() < length;) {
+    const std::uint64_t left_in_page = page_content_bytes - at % page_bytes;
+    const std::size_t take = std::min<std::uint64_t>(left_in_page, length - xml.size());
+    const std::size_t before = xml.size();
+    xml.resize(before + take);
+    file.read(at, reinterpret_cast<std::byte*>(xml.data()) + before, take, "the XML part");
+    at += left_in_page + (page_bytes - page_content_bytes);
+  }
+  return xml;
+}
+
+bool has(std::string_view xml, std::string_view word) {
+  return xml.find(word) != std::string_view::npos;
+}
+
+/// Greatest number of elements around one another, told from the brackets alone.
+int depth_of(std::string_view xml) {
+  int depth = 0;
+  int greatest = 0;
+  for (std::size_t at = xml.find('<'); at != std::string_view::npos && at + 1 < xml.size(); at = xml.find('<', at)) {
+    const bool passed_over = xml[at + 1] == '?' || xml[at + 1] == '!';
+    const std::string_view end = xml.substr(at).starts_with("<![CDATA[") ? "]]>"
+                                 : xml.substr(at).starts_with("<!--")    ? "-->"
+                                                                         : ">";
+    const std::size_t close = xml.find(end, at);
+    if (close == std::string_view::npos) break;
+    if (!passed_over && xml[at + 1] == '/') {
+      --depth;
+    } else if (!passed_over && xml[close - 1] != '/') {
+      greatest = std::max(greatest, ++depth);
+    }
+    at = close;
+  }
+  return greatest;
+}
+
+}  // namespace
+
+void expect_plain_e57_xml(const InputFile& file) {
+  const std::string all = read_xml(file);
+  std::string_view xml = all;
+  const auto fail = [&](const std::string& words) {
+    throw Error(words, file.name() + ": XML part", "export the scan again with another program");
+  };
+  if (xml.starts_with("\xEF\xBB\xBF")) xml.remove_prefix(3);
+  const std::string_view declaration = xml.substr(0, xml.find("?>"));
+  if (!xml.starts_with("<")) throw Error("the XML part does not begin as XML", file.name() + ": XML part", damaged);
+  if (has(xml, std::string_view("\0", 1)) || (declaration.starts_with("<?xml") && has(declaration, "encoding") &&
+                                              !has(declaration, "UTF-8") && !has(declaration, "utf-8")))
+    fail("the XML is not UTF-8");
+  if (has(xml, "<!DOCTYPE")) fail("the XML has a document type, which E57 forbids");
+  if (has(xml, "schemaLocation") || has(xml, "SchemaLocation")) fail("the XML names a schema to be fetched");
+  if (depth_of(xml) > deepest) fail("the elements are nested more than " + std::to_string(deepest) + " deep");
+}
+
+}  // namespace adit::io

@@ -1,0 +1,24 @@
+#pragma once
+// How the points of a LAZ file are packed, checked before LASzip may believe it: it trusts sizes.
+
+#include <cstdint>
+
+#include "io/bytes.h"
+#include "io/las_header.h"
+
+namespace adit::io {
+
+/// The parts of LASzip's record and chunk table that a reader needs.
+struct LazPacking {
+  /// Points of LAS 1.0 to 1.3 as one stream, the same in chunks, or points of LAS 1.4 with a layer for each attribute.
+  enum class Kind : std::uint16_t { stream = 1, chunks = 2, layers = 3 };
+  Kind kind = Kind::chunks;
+  std::uint32_t points_in_chunk = 0;  ///< 0: the chunks differ
+  std::uint32_t chunks = 0;           ///< 0 for a stream
+};
+
+/// Reads LASzip's record and the head of the chunk table, and walks through the chunks where their heads say how long
+/// they are (layers). Error when they contradict the header or the file's size.
+LazPacking read_laz_packing(const InputFile& file, const LasHeader& header);
+
+}  // namespace adit::io
