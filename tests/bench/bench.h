@@ -25,6 +25,8 @@ void bench_io();
 void bench_profiling();
 /// A row: millions of points, seconds for the index, the first section, a thousand sections.
 void bench_sections(const std::string& job);
+/// A slice of 0.1 m, x from -10 to -9.9 in the frames of the scans, out of an imported job: how many points it holds.
+void bench_slice(const std::string& job);
 /// A row: the library's own decoding loop over an E57 or LAZ file, millions of points a second.
 void bench_decoding(const std::string& file);
 

@@ -1,4 +1,4 @@
-// ./dev bench [registration] [io] [profiling]; import.py asks for single rows: sections JOB, decoding FILE
+// ./dev bench [registration] [io] [profiling]; import.py asks for single rows: sections JOB, slice JOB, decoding FILE
 #include <pcl/console/print.h>
 
 #include <algorithm>
@@ -11,8 +11,13 @@
 int main(int argc, char** argv) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   const std::vector<std::string> wanted(argv + 1, argv + argc);
-  if (wanted.size() == 2 && (wanted[0] == "sections" || wanted[0] == "decoding")) {
-    (wanted[0] == "sections" ? adit::bench::bench_sections : adit::bench::bench_decoding)(wanted[1]);
+  const std::vector<std::pair<std::string, void (*)(const std::string&)>> rows{
+      {"sections", adit::bench::bench_sections},
+      {"slice", adit::bench::bench_slice},
+      {"decoding", adit::bench::bench_decoding}};
+  for (const auto& [name, run] : rows) {
+    if (wanted.size() != 2 || wanted[0] != name) continue;
+    run(wanted[1]);
     return 0;
   }
   const std::vector<std::pair<std::string, void (*)()>> tables{{"registration", adit::bench::bench_registration},

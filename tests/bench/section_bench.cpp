@@ -33,4 +33,16 @@ void bench_sections(const std::string& job) {
   std::printf("| %.1f | %.3f | %.3f | %.1f |\n", static_cast<double>(points) / 1e6, indexing, first, thousand);
 }
 
+void bench_slice(const std::string& job) {
+  Progress progress;
+  app::RunOptions options;
+  options.only_take_up = true;
+  const auto state = app::run_job(job, options, progress);
+  if (state->stores.empty()) throw Error("the job is not imported", job, "run adit import first");
+  std::vector<PlacedTiles> scans;
+  for (const auto& store : state->stores) scans.push_back({store->name(), store, Pose::Identity(), true});
+  const BoundingBox slice(Eigen::Vector3d(-10.0, -100.0, -100.0), Eigen::Vector3d(-9.9, 100.0, 100.0));
+  std::printf("%zu points\n", points_in_box(scans, slice, progress).size());
+}
+
 }  // namespace adit::bench

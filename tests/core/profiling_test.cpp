@@ -220,8 +220,7 @@ TEST(Map, NoPointNearTheDesignIsRefusedWithAMend) {
   EXPECT_THROW(map_deviations({scan}, design, 10.0, 20.0, {}, progress), Error);
 }
 
-TEST(Map, DoesNotDependOnTheOrderOfPointsOrScans) {
-  const RockTunnel rock = sample_rock();
+std::vector<PlacedTiles> two_scans(const RockTunnel& rock) {
   std::vector<PlacedTiles> scans;
   for (int i = 0; i < 2; ++i) {
     const Pose pose = station(rock.design(), 36.0 + 8.0 * i, 20.0 * i);
@@ -229,17 +228,73 @@ TEST(Map, DoesNotDependOnTheOrderOfPointsOrScans) {
                      std::make_shared<CloudTiles>(scan_at(rock, pose, 3 + static_cast<std::uint64_t>(i), 60000)),
                      pose});
   }
+  return scans;
+}
+
+void expect_same(const DeviationMap& a, const DeviationMap& b) {
+  ASSERT_EQ(a.cells.size(), b.cells.size());
+  for (std::size_t i = 0; i < a.cells.size(); ++i) {
+    EXPECT_EQ(a.cells[i].count, b.cells[i].count);
+    if (a.cells[i].kind == CellKind::measured) {
+      EXPECT_EQ(a.cells[i].deviation_m, b.cells[i].deviation_m);
+    }
+  }
+}
+
+TEST(Map, DoesNotDependOnTheOrderOfPointsOrScans) {
+  const RockTunnel rock = sample_rock();
+  std::vector<PlacedTiles> scans = two_scans(rock);
   Progress progress;
   const MapResult a = map_deviations(scans, rock.design(), 32.0, 48.0, {}, progress);
   std::swap(scans[0], scans[1]);
-  const MapResult b = map_deviations(scans, rock.design(), 32.0, 48.0, {}, progress);
-  ASSERT_EQ(a.map.cells.size(), b.map.cells.size());
-  for (std::size_t i = 0; i < a.map.cells.size(); ++i) {
-    EXPECT_EQ(a.map.cells[i].count, b.map.cells[i].count);
-    if (a.map.cells[i].kind == CellKind::measured) {
-      EXPECT_EQ(a.map.cells[i].deviation_m, b.map.cells[i].deviation_m);
-    }
+  expect_same(a.map, map_deviations(scans, rock.design(), 32.0, 48.0, {}, progress).map);
+}
+
+TEST(Map, DoesNotDependOnTheMemory) {
+  const RockTunnel rock = sample_rock();
+  const std::vector<PlacedTiles> scans = two_scans(rock);
+  Progress progress;
+  const MapResult a = map_deviations(scans, rock.design(), 32.0, 48.0, {}, progress);
+  const MapResult b = map_deviations(scans, rock.design(), 32.0, 48.0, {}, progress, 10'000);  // row by row
+  expect_same(a.map, b.map);
+  EXPECT_EQ(a.points_used, b.points_used);
+  EXPECT_EQ(a.points_inside, b.points_inside);
+}
+
+TEST(Section, StraightFromThePointsIsThatOfTheMap) {
+  const RockTunnel rock = sample_rock();
+  const std::vector<PlacedTiles> scans = two_scans(rock);
+  const ChainageIndex index(scans, rock.design().alignment());
+  Progress progress;
+  const MapResult mapped = map_deviations(scans, rock.design(), 32.0, 48.0, {}, progress);
+  for (const double chainage : {36.2, 39.0, 42.7}) {
+    const Section a = cut_section(mapped.map, rock.design(), chainage, {});
+    const Section b = cut_section(scans, index, rock.design(), chainage, {}, progress);
+    EXPECT_NEAR(a.lines[0].area_m2, b.lines[0].area_m2, 0.003 * a.lines[0].area_m2) << chainage;
+    EXPECT_NEAR(a.lines[0].overbreak_m2, b.lines[0].overbreak_m2, 0.1) << chainage;
+    EXPECT_NEAR(a.lines[0].coverage, b.lines[0].coverage, 0.08) << chainage;
   }
+}
+
+TEST(Map, OfDenseTilesAnEvenSubsampleWillDo) {
+  const RockTunnel rock = sample_rock();
+  std::vector<PlacedTiles> scans{
+      {"S", std::make_shared<CloudTiles>(scan_at(rock, station(rock.design(), 40.0, 0.0), 9, 400000)),
+       station(rock.design(), 40.0, 0.0)}};
+  Progress progress;
+  ProfilingOptions few;
+  few.most_points_a_cell = 20;
+  const MapResult all = map_deviations(scans, rock.design(), 38.0, 42.0, {}, progress);
+  const MapResult some = map_deviations(scans, rock.design(), 38.0, 42.0, few, progress);
+  EXPECT_LT(some.points_used, all.points_used);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < all.map.cells.size(); ++i) {
+    if (all.map.cells[i].kind != CellKind::measured || some.map.cells[i].kind != CellKind::measured) continue;
+    sum += std::abs(static_cast<double>(all.map.cells[i].deviation_m - some.map.cells[i].deviation_m));
+    count += 1.0;
+  }
+  EXPECT_GT(count, 5000.0);
+  EXPECT_LT(sum / count, 0.003);
 }
 
 TEST(VolumeSlow, OfASimulatedTunnelIsWithinOnePercentAndItsSigma) {
