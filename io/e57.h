@@ -29,7 +29,7 @@ void stream_e57(const std::filesystem::path& file, const ReadOptions& options, S
 ScanFileSummary summarise_e57(const std::filesystem::path& file, Progress& progress);
 
 /// A file of all scans. Variants: scaled (default; whole tenths of a millimetre, doubles only where a scan spans more
-/// than 200 km) and double. Intensities and row and column as they are. The same points make the same bytes:
+/// than 400 km) and double. Intensities and row and column as they are. The same points make the same bytes:
 /// identifiers are hashes of what the file holds, and no date is written.
 std::unique_ptr<ScanWriter> make_e57_writer(const std::filesystem::path& file, const std::vector<ScanFacts>& scans,
                                             const WriteOptions& options);

@@ -17,7 +17,7 @@ using e57::StringNode;
 using e57::StructureNode;
 
 constexpr double scale_m = 1e-4;
-constexpr double most_steps = 4e9;  // beyond 200 km either way, doubles take hardly more room
+constexpr double most_steps = 4e9;  // 400 km: beyond, doubles take hardly more room
 constexpr const char* normals_uri = "http://www.libe57.org/E57_NOR_surface_normals.txt";
 
 /// 128 bits of a hash as E57 writes identifiers.

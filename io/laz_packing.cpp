@@ -22,14 +22,18 @@ constexpr std::uint32_t differing_chunks = std::numeric_limits<std::uint32_t>::m
   throw Error(what_is_wrong, file.at_byte(offset), mend);
 }
 
-/// A part of a point record as LASzip counts them, and how many layers it has where points are kept in layers.
+/// A part of a point record as LASzip counts them, how many layers it has where points are kept in layers, and the ways
+/// of packing it that LASzip knows.
 struct Item {
   std::uint16_t type;
   std::uint16_t size;
   std::uint16_t layers;
+  std::uint16_t oldest_version;
+  std::uint16_t newest_version;
 };
-constexpr Item point10{6, 20, 0}, gps_time{7, 8, 0}, colour{8, 6, 0}, wave{9, 29, 0};
-constexpr Item point14{10, 30, 9}, colour14{11, 6, 1}, colour_and_infrared14{12, 8, 2}, wave14{13, 29, 1};
+constexpr Item point10{6, 20, 0, 1, 2}, gps_time{7, 8, 0, 1, 2}, colour{8, 6, 0, 1, 2}, wave{9, 29, 0, 1, 1};
+constexpr Item point14{10, 30, 9, 2, 4}, colour14{11, 6, 1, 2, 4}, colour_and_infrared14{12, 8, 2, 2, 4},
+    wave14{13, 29, 1, 3, 4};
 
 /// The items that a point format consists of.
 std::vector<Item> items_of(const LasHeader& header) {
@@ -47,8 +51,8 @@ std::vector<Item> items_of(const LasHeader& header) {
   std::vector<Item> items = rows.at(header.point_format);
   const unsigned extra = header.record_bytes - las_point_format(header.point_format).least_bytes;
   const auto bytes = static_cast<std::uint16_t>(extra);
-  if (extra > 0 && header.point_format < 6) items.push_back({0, bytes, 0});
-  if (extra > 0 && header.point_format >= 6) items.push_back({14, bytes, bytes});
+  if (extra > 0 && header.point_format < 6) items.push_back({0, bytes, 0, 1, 2});
+  if (extra > 0 && header.point_format >= 6) items.push_back({14, bytes, bytes, 2, 4});
   return items;
 }
 
@@ -95,7 +99,8 @@ LazPacking take_payload(const InputFile& file, const LasHeader& header, const st
              " is not known for point format " + std::to_string(header.point_format));
   if (number(32) != items.size()) fail(file, payload.offset + 32, "the number of items does not fit the point format");
   for (std::size_t i = 0; i < items.size(); ++i)
-    if (number(34 + 6 * i) != items[i].type || number(36 + 6 * i) != items[i].size)
+    if (number(34 + 6 * i) != items[i].type || number(36 + 6 * i) != items[i].size ||
+        number(38 + 6 * i) < items[i].oldest_version || number(38 + 6 * i) > items[i].newest_version)
       fail(file, payload.offset + 34 + 6 * i, "an item of the record of LASzip does not fit the point format");
   LazPacking packing;
   packing.kind = static_cast<LazPacking::Kind>(number(0));
