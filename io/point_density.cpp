@@ -17,6 +17,7 @@ constexpr std::size_t most_asked = 2000;
 constexpr int neighbours = 8;
 constexpr double distance_m = 5.0;
 constexpr double band_m = 1.0;
+constexpr double beyond_any_site_m = 1e10;
 
 struct LocalDensity {
   double range_m;  ///< from the origin
@@ -49,6 +50,7 @@ std::optional<PointDensity> point_density(const std::vector<Eigen::Vector3d>& po
   if (points.size() < least_points) return std::nullopt;
   BoundingBox box;
   for (const Eigen::Vector3d& p : points) box.extend(p);
+  if (box.sizes().maxCoeff() > beyond_any_site_m) return std::nullopt;  // float32 would not hold them either
   std::vector<double> all, near;
   for (const LocalDensity& local : local_densities(points, box.center(), stands_for)) {
     all.push_back(local.points_per_m2);

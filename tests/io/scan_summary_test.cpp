@@ -63,6 +63,9 @@ TEST(ScanSummary, SmallFilesAreReadWhole) {
     EXPECT_NEAR(summary.density.value().points_per_m2 / density_of_sphere(20'000), 1.0, 0.15) << ending;
   }
   EXPECT_FALSE(tests::summary(folder.write("few.xyz", "1 2 3\n4 5 6\n")).scans.at(0).density);
+  std::string endless;
+  for (int i = 0; i < 200; ++i) endless += std::to_string(i) + "e300 0 0\n";
+  EXPECT_FALSE(tests::summary(folder.write("endless.xyz", endless)).scans.at(0).density);
 }
 
 TEST(ScanSummary, AwayFromTheScannerTheMedianIsSaid) {
