@@ -110,9 +110,9 @@ const ScanFormat* format_by_beginning(const InputFile& file) {
   return nullptr;
 }
 
-std::string listed(const std::vector<std::string>& endings) {
+std::string listed(const std::vector<std::string>& words, const char* separator = " ") {
   std::string list;
-  for (const std::string& ending : endings) list += (list.empty() ? "" : " ") + ending;
+  for (const std::string& word : words) list += (list.empty() ? "" : separator) + word;
   return list;
 }
 
@@ -134,7 +134,7 @@ const ScanFormat& writable_format(const fs::path& file, const WriteOptions& opti
   const std::vector<std::string>& known = format->variants;
   if (!options.variant.empty() && std::find(known.begin(), known.end(), options.variant) == known.end())
     throw Error("the format has no variant \"" + options.variant + "\"", file.string(),
-                known.empty() ? "leave the variant out" : "choose one of " + listed(known));
+                known.empty() ? "leave the variant out" : "choose one of " + listed(known, ", "));
   return *format;
 }
 
