@@ -150,9 +150,10 @@ def run(case, adit):
         before = tree(job)
         words = shlex.split(case.command)
         words[1:1] = ["--quiet"] if words and not words[0].startswith("-") and not re.search(r"usage", case.name) else []
+        program = shutil.copy(adit, temporary) if case.user else adit  # nobody may not look into the build's folder
         nobody = as_nobody(temporary) if case.user else {}
         try:
-            done = subprocess.run([adit, *words], cwd=job, capture_output=True, timeout=LONGEST_S, stdin=subprocess.DEVNULL, **nobody)
+            done = subprocess.run([program, *words], cwd=job, capture_output=True, timeout=LONGEST_S, stdin=subprocess.DEVNULL, **nobody)
         except subprocess.TimeoutExpired:
             return ["no answer in %d s" % LONGEST_S], ""
         faults = faults_of_words(case, done) + left_behind(before, tree(job), case.exit == 2, case.changes)
