@@ -9,7 +9,8 @@ namespace adit::io {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t points_between_checks = 8192;
+/// So many at a time stay near the processor; the wish to stop is heard after each block.
+constexpr std::size_t records_in_block = 8192;
 
 /// Columns of a block of records, as doubles whatever the file stores.
 class Records {
@@ -25,8 +26,8 @@ class Records {
     std::vector<e57::SourceDestBuffer> buffers;
     for (std::size_t field = 0; field < e57_fields; ++field) {
       if (!scan.has[field]) continue;
-      columns_[field].resize(PointBlock::most_points);
-      buffers.emplace_back(file, e57_field_names[field], columns_[field].data(), PointBlock::most_points, true, true);
+      columns_[field].resize(records_in_block);
+      buffers.emplace_back(file, e57_field_names[field], columns_[field].data(), records_in_block, true, true);
     }
     return e57::CompressedVectorNode(scan.records).reader(buffers);
   }
@@ -41,8 +42,8 @@ Eigen::Vector3d from_spherical(double range, double azimuth, double elevation) {
 }
 
 std::uint8_t byte_of(double value, const E57ColourRange& range) {
-  const double share = (value - range.least) / (range.greatest - range.least);
-  return static_cast<std::uint8_t>(share > 0.0 ? std::lround(std::min(share, 1.0) * 255.0) : 0);
+  const double byte = (value - range.least) * range.to_bytes;
+  return byte > 0.0 ? static_cast<std::uint8_t>(std::min(byte, 255.0) + 0.5) : std::uint8_t{0};
 }
 
 std::uint32_t grid_number(double value, const char* word, const std::string& where) {
@@ -79,8 +80,8 @@ void stream_scan(const e57::ImageFile& file, const E57Scan& scan, PointStream& o
   Records records(file, scan);
   std::uint64_t done = 0;
   for (std::size_t n = 0; (n = records.next()) > 0; done += n) {
+    progress.step(done, scan.header.points);
     for (std::size_t i = 0; i < n; ++i) {
-      if (i % points_between_checks == 0) progress.step(done + i, scan.header.points);
       if (may_be_invalid && records(state, i) != 0.0) {
         out.add_no_return();  // 1: only the direction is known, 2: nothing
       } else {

@@ -104,19 +104,21 @@ std::uint64_t lines_of(const StructureNode& scan, const std::string& line) {
 /// Limits where the scan states them, else what the records can hold; whole bytes where neither says anything.
 E57ColourRange colour_range(const StructureNode& scan, const StructureNode& record, const char* colour) {
   const std::string name = std::string("color") + colour;
-  E57ColourRange range;
+  double least = 0.0;
+  double greatest = 255.0;
   if (record.isDefined(name) && record.get(name).type() == e57::E57_INTEGER) {
     const e57::IntegerNode node(record.get(name));
-    range = {static_cast<double>(node.minimum()), static_cast<double>(node.maximum())};
+    least = static_cast<double>(node.minimum());
+    greatest = static_cast<double>(node.maximum());
   } else if (record.isDefined(name) && record.get(name).type() == e57::E57_FLOAT) {
-    range = {0.0, 1.0};
+    greatest = 1.0;
   }
   if (const auto limits = structure(scan, "colorLimits")) {
-    range.least = number(*limits, (name + "Minimum").c_str()).value_or(range.least);
-    range.greatest = number(*limits, (name + "Maximum").c_str()).value_or(range.greatest);
+    least = number(*limits, (name + "Minimum").c_str()).value_or(least);
+    greatest = number(*limits, (name + "Maximum").c_str()).value_or(greatest);
   }
-  if (!(range.greatest > range.least) || !std::isfinite(range.greatest - range.least)) return {};
-  return range;
+  if (!(greatest > least) || !std::isfinite(greatest - least)) return {};
+  return {least, 255.0 / (greatest - least)};
 }
 
 /// Bits that one record takes in the file, at least.

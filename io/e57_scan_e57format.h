@@ -46,10 +46,10 @@ inline constexpr std::array<const char*, e57_fields> e57_field_names = {
     "colorBlue",      "isColorInvalid",     "rowIndex",           "columnIndex",
     "nor:normalX",    "nor:normalY",        "nor:normalZ"};
 
-/// From stored colours to 0 .. 255.
+/// From stored colours to 0 .. 255: (stored - least) * to_bytes.
 struct E57ColourRange {
   double least = 0.0;
-  double greatest = 255.0;
+  double to_bytes = 1.0;
 };
 
 /// A scan, without its points.
