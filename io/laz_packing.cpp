@@ -106,6 +106,12 @@ LazPacking take_payload(const InputFile& file, const LasHeader& header, const st
   packing.kind = static_cast<LazPacking::Kind>(number(0));
   packing.points_in_chunk = little<std::uint32_t>(bytes.data() + 12);
   if (packing.points_in_chunk == differing_chunks) packing.points_in_chunk = 0;
+  packing.record_offset = payload.offset;
+  packing.record_bytes = payload.bytes;
+  // Only layered chunks tell how long they are, and LASzip believes a chunk table of differing ones whatever it says.
+  if (packing.points_in_chunk == 0 &&
+      (packing.kind == LazPacking::Kind::chunks || (layers && header.minor_version < 4)))
+    fail(file, payload.offset + 12, "chunks of differing sizes are known of LAS 1.4 points alone", "export as LAS");
   return packing;
 }
 
@@ -127,17 +133,12 @@ std::uint64_t find_table(const InputFile& file, std::uint64_t first_chunk) {
   return table;
 }
 
-/// The chunk's points, and where the next one begins. A layered chunk: a whole point, the number of points, the bytes
+/// A layered chunk: a whole point, the number of points, the bytes
 /// of each layer, the layers.
-struct LayeredChunk {
-  std::uint64_t points;
-  std::uint64_t end;
-};
-
-LayeredChunk layered_chunk(const InputFile& file, std::uint64_t at, std::uint16_t record_bytes, std::size_t layers) {
+LazChunk layered_chunk(const InputFile& file, std::uint64_t at, std::uint16_t record_bytes, std::size_t layers) {
   const std::vector<std::byte> head = file.read(at, record_bytes + 4 + 4 * layers, "a chunk of points");
   const std::byte* number = head.data() + record_bytes;
-  LayeredChunk chunk{little<std::uint32_t>(number), at + head.size()};
+  LazChunk chunk{at, at + head.size(), little<std::uint32_t>(number)};
   std::uint64_t bytes = 0;
   for (std::size_t i = 1; i <= layers; ++i) bytes += little<std::uint32_t>(number + 4 * i);
   if (bytes > std::numeric_limits<std::uint32_t>::max()) fail(file, at, "the sizes of a chunk's layers are impossible");
@@ -145,19 +146,20 @@ LayeredChunk layered_chunk(const InputFile& file, std::uint64_t at, std::uint16_
   return chunk;
 }
 
-void walk_layered_chunks(const InputFile& file, const LasHeader& header, const LazPacking& packing,
-                         const std::vector<Item>& items, std::uint64_t first_chunk, std::uint64_t table) {
+void walk_layered_chunks(const InputFile& file, const LasHeader& header, const std::vector<Item>& items,
+                         std::uint64_t first_chunk, std::uint64_t table, LazPacking& packing) {
   std::size_t layers = 0;
   for (const Item& item : items) layers += item.layers;
   std::uint64_t at = first_chunk;
   std::uint64_t points = 0;
   for (std::uint32_t i = 0; i < packing.chunks; ++i) {
-    const LayeredChunk chunk = layered_chunk(file, at, header.record_bytes, layers);
+    const LazChunk chunk = layered_chunk(file, at, header.record_bytes, layers);
     const std::string name = "chunk " + std::to_string(i + 1) + " of " + std::to_string(packing.chunks);
     if (chunk.end > table) fail(file, at, name + " reaches into the chunk table");
     const bool full = chunk.points == packing.points_in_chunk || i + 1 == packing.chunks;
     if (chunk.points == 0 || (packing.points_in_chunk > 0 && !full))
       fail(file, at, name + " says it has " + std::to_string(chunk.points) + " points");
+    if (packing.points_in_chunk == 0) packing.differing.push_back(chunk);
     points += chunk.points;
     at = chunk.end;
   }
@@ -190,7 +192,7 @@ LazPacking read_laz_packing(const InputFile& file, const LasHeader& header) {
            "the header says " + std::to_string(header.points) + " points in " + std::to_string(chunks) +
                " chunks, the chunk table has " + std::to_string(packing.chunks));
   }
-  if (packing.kind == LazPacking::Kind::layers) walk_layered_chunks(file, header, packing, items, first_chunk, table);
+  if (packing.kind == LazPacking::Kind::layers) walk_layered_chunks(file, header, items, first_chunk, table, packing);
   return packing;
 }
 

@@ -2,11 +2,19 @@
 // How the points of a LAZ file are packed, checked before LASzip may believe it: it trusts sizes.
 
 #include <cstdint>
+#include <vector>
 
 #include "io/bytes.h"
 #include "io/las_header.h"
 
 namespace adit::io {
+
+/// A chunk of points that can be unpacked by itself.
+struct LazChunk {
+  std::uint64_t begin = 0;  ///< byte of the file
+  std::uint64_t end = 0;
+  std::uint64_t points = 0;
+};
 
 /// The parts of LASzip's record and chunk table that a reader needs.
 struct LazPacking {
@@ -15,6 +23,9 @@ struct LazPacking {
   Kind kind = Kind::chunks;
   std::uint32_t points_in_chunk = 0;  ///< 0: the chunks differ
   std::uint32_t chunks = 0;           ///< 0 for a stream
+  std::uint64_t record_offset = 0;    ///< where LASzip's variable length record stands, behind its own head
+  std::uint16_t record_bytes = 0;
+  std::vector<LazChunk> differing;  ///< all chunks, where they differ
 };
 
 /// Reads LASzip's record and the head of the chunk table, and walks through the chunks where their heads say how long

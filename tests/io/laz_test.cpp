@@ -154,6 +154,17 @@ TEST_F(BrokenLaz, ContradictionsAreNamed) {
     EXPECT_THAT(refused_with<std::uint32_t>(points + 8 + 40 + 4 * layer, 0xFFFFFFF0), HasSubstr("chunk")) << layer;
 }
 
+/// Whatever the chunk table says: each chunk tells its own size.
+TEST_F(BrokenLaz, ChunksOfDifferingSizesNeedNoTable) {
+  std::string bytes = bytes_;
+  const std::uint32_t differing = 0xFFFFFFFF;
+  std::memcpy(bytes.data() + payload + 12, &differing, sizeof differing);
+  for (std::size_t k = at<std::uint64_t>(at<std::uint32_t>(96)) + 8; k < bytes.size(); ++k) bytes[k] = 'x';
+  const StreamedScan scan = tests::stream_all(folder_.write("d.laz", bytes)).at(0);
+  EXPECT_EQ(scan.points.positions, whole_.points.positions);
+  EXPECT_EQ(scan.points.colour, whole_.points.colour);
+}
+
 TEST_F(BrokenLaz, FlippedBitsGiveAllPointsOrAnError) {
   const Random random(5);
   const auto flipped_at = [&](std::size_t byte, unsigned bit) {
