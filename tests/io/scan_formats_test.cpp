@@ -32,8 +32,8 @@ TEST(ScanFormats, RefusesWhatIsNoScan) {
   EXPECT_THAT(tests::refusal(folder / "none.ply"), HasSubstr("none.ply: no such file"));
   EXPECT_THAT(tests::refusal(folder.path()), HasSubstr("this is a folder"));
   EXPECT_THAT(tests::refusal(folder.write("a.json", "{}")),
-              AllOf(HasSubstr("the ending names no scan format"),
-                    HasSubstr(".ply .pcd .e57 .laz .las .pts .ptx .xyz .csv .txt")));
+              AllOf(HasSubstr("the ending names no scan format"), HasSubstr(".ply .pcd "),
+                    HasSubstr(" .las .pts .ptx .xyz .csv .txt")));
   EXPECT_THAT(tests::refusal(folder.write("a.e57", "ASTM-E57")), HasSubstr("E57"));
   for (const std::string& ending : readable_endings())
     EXPECT_THAT(tests::refusal(folder.write("empty" + ending, "")), HasSubstr("the file is empty")) << ending;
