@@ -33,7 +33,7 @@ struct PointStoreHeader {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
   std::optional<Pose> file_pose;
   std::string source_sha256;
-  std::uint64_t source_scan = 1;  ///< which scan of the source, from 1
+  std::uint64_t source_scan = 0;  ///< which scan of the source, from 1; 0: its only one
   Keep keep = Keep::tenth_millimetre;
   std::uint64_t points = 0;
   std::uint64_t no_returns = 0;

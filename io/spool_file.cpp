@@ -4,11 +4,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 
 #include "core/foundation/error.h"
+#include "io/atomic_file.h"
 
 namespace adit::io {
 
@@ -23,10 +23,9 @@ std::uint64_t SpoolFile::append(const void* bytes, std::size_t count) {
                                                    : "check the folder and the disk");
   };
   if (descriptor_ < 0) {
-    std::string name = (folder_ / ".adit-spool-XXXXXX").string();
-    descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+    const AtomicPath named(folder_ / "spool");  // its name goes at the end of this block, the file when it is closed
+    descriptor_ = ::open(named.temporary().c_str(), O_RDWR | O_CLOEXEC);
     if (descriptor_ < 0) fail("the spool file cannot be made");
-    ::unlink(name.c_str());
   }
   const std::uint64_t at = size_;
   const char* from = static_cast<const char*>(bytes);

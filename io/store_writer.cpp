@@ -10,17 +10,13 @@
 #include "core/foundation/error.h"
 #include "core/geometry/morton.h"
 #include "io/atomic_file.h"
+#include "io/scan_from_memory.h"
 #include "io/scan_offset.h"
 
 namespace adit::io {
 namespace {
 
 constexpr std::size_t tiles_at_once = 16;
-
-struct Batch {
-  std::size_t index = 0;
-  StoredPoints points;
-};
 
 struct WrittenTile {
   StoredTile row;
@@ -57,6 +53,7 @@ StoreWriter::StoreWriter(std::filesystem::path path, StoreOptions options)
     : path_(std::move(path)), options_(std::move(options)), spool_(path_.parent_path()) {
   header_.name = options_.name;
   header_.source_sha256 = options_.source_sha256;
+  header_.source_scan = options_.scan;
   header_.keep = options_.keep;
 }
 
@@ -75,7 +72,6 @@ bool StoreWriter::begin(const ScanHeader& scan) {
   if (options_.scan == 0 ? number > 1 : number != options_.scan) return false;
   taken_ = true;
   where_ = scan.where;
-  header_.source_scan = number;
   header_.file_pose = scan.file_pose;
   header_.has_intensity = scan.attributes.intensity;
   header_.has_colour = scan.attributes.colour;
@@ -145,7 +141,7 @@ void StoreWriter::expect_the_scan() const {
         path_.string(), "choose another");
 }
 
-PointStoreHeader StoreWriter::commit(Progress& progress) {
+void StoreWriter::commit(Progress& progress) {
   expect_the_scan();
   const std::uint64_t dropped = shell_.count();
   header_.points = points_ - dropped;
@@ -158,7 +154,6 @@ PointStoreHeader StoreWriter::commit(Progress& progress) {
   filling_ = {};
   sorter_ = {};
   write_tiles(std::move(runs_), progress);
-  return header_;
 }
 
 void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
@@ -172,18 +167,16 @@ void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
   AtomicFile file(path_);
   file.append(store_beginning());
   std::size_t next = 0;
-  const auto next_batch = [&](tbb::flow_control& control) {
-    auto batch = std::make_shared<Batch>();
+  const auto next_tile = [&](tbb::flow_control& control) {
+    auto points = std::make_shared<StoredPoints>();
     if (next == tiles) {
       control.stop();
-      return batch;
+      return points;
     }
     progress.step(next, tiles);
-    batch->index = next++;
-    const std::uint64_t begin = tile_begin(header_.points, tiles, batch->index);
-    merged.fill(static_cast<std::size_t>(tile_begin(header_.points, tiles, batch->index + 1) - begin), batch->points,
-                is_kept);
-    return batch;
+    const std::uint64_t begin = tile_begin(header_.points, tiles, next);
+    merged.fill(static_cast<std::size_t>(tile_begin(header_.points, tiles, ++next) - begin), *points, is_kept);
+    return points;
   };
   const auto append = [&](const std::shared_ptr<WrittenTile>& tile) {
     const auto before = header_.tiles.empty() ? 0 : header_.tiles.back().first_point + header_.tiles.back().code.count;
@@ -193,11 +186,11 @@ void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
   };
   tbb::parallel_pipeline(
       tiles_at_once,
-      tbb::make_filter<void, std::shared_ptr<Batch>>(tbb::filter_mode::serial_in_order, next_batch) &
-          tbb::make_filter<std::shared_ptr<Batch>, std::shared_ptr<WrittenTile>>(
+      tbb::make_filter<void, std::shared_ptr<StoredPoints>>(tbb::filter_mode::serial_in_order, next_tile) &
+          tbb::make_filter<std::shared_ptr<StoredPoints>, std::shared_ptr<WrittenTile>>(
               tbb::filter_mode::parallel,
-              [&](const std::shared_ptr<Batch>& batch) {
-                return std::make_shared<WrittenTile>(written_tile(batch->points, keep));
+              [&](const std::shared_ptr<StoredPoints>& points) {
+                return std::make_shared<WrittenTile>(written_tile(*points, keep));
               }) &
           tbb::make_filter<std::shared_ptr<WrittenTile>, void>(tbb::filter_mode::serial_in_order, append));
   file.append(store_end(header_));
@@ -207,26 +200,7 @@ void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
 void write_point_store(const std::filesystem::path& path, const ScanData& scan, const StoreOptions& options,
                        Progress& progress) {
   StoreWriter writer(path, options);
-  ScanHeader header;
-  header.name = scan.name;
-  header.where = path.string();
-  header.attributes = {scan.cloud.has_intensity(), scan.cloud.has_colour(), false, false};
-  header.file_pose = scan.file_pose;
-  writer.begin(header);
-  PointBlock block;
-  for (std::size_t begin = 0; begin < scan.cloud.size(); begin += PointBlock::most_points) {
-    progress.check();
-    const std::size_t end = std::min(begin + PointBlock::most_points, scan.cloud.size());
-    block.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-      block.positions.push_back(scan.cloud.points[i].cast<double>() + scan.offset);
-      if (header.attributes.intensity) block.intensity.push_back(scan.cloud.intensity[i]);
-      if (header.attributes.colour) block.colour.push_back(scan.cloud.colour[i]);
-    }
-    writer.take(block);
-  }
-  writer.end(scan.no_returns);
-  if (scan.cloud.empty()) throw Error("a scan without points cannot be stored", path.string(), "check the scan");
+  stream_from_memory(scan, path, writer, progress);
   writer.commit(progress);
 }
 

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,14 +20,14 @@ namespace adit::io {
 struct StoreOptions {
   std::string name;           ///< of the scan in the store
   std::string source_sha256;  ///< of the file it comes from (64 hexadecimal digits, or empty)
-  std::uint64_t scan = 0;     ///< which scan of the file, from 1; 0: the only one
+  std::uint64_t scan = 0;     ///< which scan of the file, from 1; 0: the only one it may hold
   Keep keep = Keep::tenth_millimetre;
-  /// For sorted points that wait for their tiles; what does not fit is spooled. Some 300 MiB come on top.
+  /// For sorted points that wait for their tiles; what does not fit is spooled.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;
-  /// Points sorted at once: few enough for the sort to stay near the processor (75 MB of points, 130 MB of keys).
+  /// Points sorted at once, some 70 bytes each on top: few enough for the sort to stay near the processor.
   std::size_t run_points = std::size_t{1} << 22;
-  bool drop_no_returns =
-      true;  ///< leave out pulses without an echo (NoReturnShell), where the scanner is at the origin
+  /// Leave out pulses without an echo (NoReturnShell), where the scanner is at the origin.
+  bool drop_no_returns = true;
 };
 
 /// Takes the scans of a file and writes one of them as a store; normals and raster are left out. The store depends on
@@ -53,9 +52,9 @@ class StoreWriter : public ScanSink {
   /// Names of all scans the file held.
   const std::vector<std::string>& scans_seen() const { return scans_seen_; }
 
-  /// Sorts, cuts into tiles and writes them, atomically; returns what was written. Error when the file did not hold the
-  /// scan, or held several and none was chosen.
-  PointStoreHeader commit(Progress& progress);
+  /// Sorts, cuts into tiles and writes them, atomically. Error when the file did not hold the scan, or held several and
+  /// none was chosen.
+  void commit(Progress& progress);
 
  private:
   void expect_the_scan() const;

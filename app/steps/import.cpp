@@ -47,7 +47,7 @@ io::StoreOptions store_options(const JobState& state, const JobScan& scan) {
 bool is_made_with(const io::PointStore& store, const io::StoreOptions& options) {
   const io::PointStoreHeader& header = store.header();
   return header.name == options.name && header.source_sha256 == options.source_sha256 && header.keep == options.keep &&
-         header.source_scan == std::max<std::uint64_t>(options.scan, 1);
+         header.source_scan == options.scan;
 }
 
 /// An import that was cut short left whole stores behind: they need not be made again.
@@ -67,9 +67,11 @@ bool is_made_already(const std::filesystem::path& file, const io::StoreOptions& 
 /// A scan in millimetres is hundreds of metres wide in every direction, and no tunnel is.
 void check_unit(const io::PointStore& store, const std::string& file) {
   constexpr double widest_tunnel_m = 400.0;
+  constexpr std::size_t enough_points = 100000;
+  const std::size_t of_a_tile = enough_points / store.tile_count() + 1;
   PointCloud overview;
   for (std::size_t tile = 0; tile < store.tile_count(); ++tile) {
-    const auto points = store.positions(tile, io::overview_points(store.point_count(tile)));
+    const auto points = store.positions(tile, std::min(of_a_tile, io::overview_points(store.point_count(tile))));
     overview.points.insert(overview.points.end(), points.begin(), points.end());
   }
   const double narrowest_m = middle_extent(overview).minCoeff();
@@ -88,13 +90,9 @@ void refuse_several_scans(const std::vector<std::string>& names, const std::stri
               file, "add \"scan\": 1 (2, 3, ...) beside \"file\", and one entry for each");
 }
 
-void import_scan(const JobState& state, std::size_t index, std::uint64_t memory_bytes, Progress& progress) {
-  const JobScan& scan = state.job.scans[index];
+void make_store(const JobState& state, const JobScan& scan, const std::filesystem::path& target,
+                const io::StoreOptions& options, Progress& progress) {
   const std::filesystem::path file = state.folder / scan.file;
-  const std::filesystem::path target = store_file(state, index);
-  io::StoreOptions options = store_options(state, scan);
-  options.memory_bytes = memory_bytes;
-  if (is_made_already(target, options, progress)) return;
   io::StoreWriter writer(target, options);
   Progress reading = progress.part(0.6, "reading " + scan.file);
   io::stream_scans(file, {}, writer, reading);
@@ -105,12 +103,18 @@ void import_scan(const JobState& state, std::size_t index, std::uint64_t memory_
                 file.string(), "correct \"scan\" in the job");
   Progress writing = progress.part(0.4, "storing " + scan.name);
   writer.commit(writing);
-  try {
-    check_unit(io::PointStore(target), file.string());
-  } catch (const Error&) {
-    std::filesystem::remove(target);
-    throw;
-  }
+}
+
+void import_scan(const JobState& state, std::size_t index, std::uint64_t memory_bytes, Progress& progress) {
+  constexpr std::uint64_t sorting_bytes_a_point = 70;
+  const JobScan& scan = state.job.scans[index];
+  const std::filesystem::path target = store_file(state, index);
+  io::StoreOptions options = store_options(state, scan);
+  options.memory_bytes = memory_bytes / 2;
+  options.run_points = static_cast<std::size_t>(
+      std::clamp<std::uint64_t>(memory_bytes / 2 / sorting_bytes_a_point, 65536, options.run_points));
+  if (!is_made_already(target, options, progress)) make_store(state, scan, target, options, progress);
+  check_unit(io::PointStore(target), (state.folder / scan.file).string());
 }
 
 /// Several scans at once, as many as there are threads. The first bad one in the order of the job is what is reported,
@@ -188,7 +192,7 @@ void summarise(JobState& state) {
   for (std::size_t i = 0; i < state.stores.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (state.stores[i]->source_sha256() == state.stores[k]->source_sha256() &&
-          state.stores[i]->header().source_scan == state.stores[k]->header().source_scan)
+          std::max(1, state.job.scans[i].number) == std::max(1, state.job.scans[k].number))
         result.findings.push_back({Severity::decision, "scan " + state.stores[i]->name(),
                                    "its file has the same content as that of scan " + state.stores[k]->name(),
                                    "name the file of the other station"});
