@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 #include <set>
 
 #include "io/e57_xml.h"
@@ -246,6 +247,9 @@ std::vector<HeaderFact> e57_description(const e57::ImageFile& file) {
 
 e57::ImageFile open_e57(const fs::path& path) {
   expect_plain_e57_xml(InputFile(path));
+  // Xerces begins and ends inside, for the whole program: two threads must not.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
   return e57::ImageFile(path.string(), "r", e57::CHECKSUM_POLICY_ALL);
 }
 

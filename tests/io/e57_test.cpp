@@ -2,8 +2,10 @@
 
 #include <E57Format.h>
 
+#include <atomic>
 #include <functional>
 #include <map>
+#include <thread>
 
 #include "tests/io/scan_streams.h"
 #include "tests/real_data.h"
@@ -22,6 +24,20 @@ std::vector<StreamedScan> round_trip(const std::vector<StreamedScan>& scans, con
   tests::write_streams(make_e57_writer, folder / "s.e57", scans, variant);
   EXPECT_EQ(tests::files_in(folder.path()), 1U);
   return tests::stream_all(folder / "s.e57");
+}
+
+TEST(E57, ManyThreadsReadAtOnce) {
+  const tests::TemporaryFolder folder;
+  const std::vector<StreamedScan> scans{tests::sample_stream(500, "S")};
+  tests::write_streams(make_e57_writer, folder / "s.e57", scans, "");
+  std::atomic<std::size_t> points{0};
+  std::vector<std::thread> threads;
+  for (int k = 0; k < 4; ++k)
+    threads.emplace_back([&] {
+      for (int turn = 0; turn < 50; ++turn) points += tests::stream_all(folder / "s.e57").at(0).points.size();
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(points.load(), 4U * 50U * 500U);
 }
 
 TEST(E57, RoundTripKeepsSeveralScansAndTheirPoses) {
