@@ -10,6 +10,7 @@ constexpr double step_m = 0.25;
 constexpr double margin_m = 1.0;  // a guess from afar may be that wrong
 constexpr double tested_offset_m = 8.0;
 constexpr double good_m = 1e-5;
+constexpr double most_turn_rad = 0.5;  // of a short stretch
 constexpr double least_squeeze = 0.2;  // nearer to the centre of the curve the foot is exact or nothing
 
 }  // namespace
@@ -23,6 +24,11 @@ TunnelFrames::TunnelFrames(const Alignment& axis, double from_m, double to_m)
     frames_.push_back(frame_at(std::min(first_m_ + step_m * static_cast<double>(i), axis.to_m())));
     frames_.back().exact_needed = !is_good(frames_.back());
   }
+  double sharpest = 0.0;
+  for (const Frame& frame : frames_) sharpest = std::max(sharpest, std::abs(frame.curvature_per_m));
+  is_short_ = (to_m - from_m) * sharpest < most_turn_rad;
+  begin_ = frame_at(std::clamp(from_m, axis.from_m(), axis.to_m()));
+  end_ = frame_at(std::clamp(to_m, axis.from_m(), axis.to_m()));
 }
 
 TunnelFrames::Frame TunnelFrames::frame_at(double chainage_m) const {
@@ -86,7 +92,14 @@ std::optional<TunnelPoint> TunnelFrames::exact(const Eigen::Vector3d& point, dou
   return at;
 }
 
+bool TunnelFrames::is_outside(const Eigen::Vector3d& point) const {
+  constexpr double doubt_m = 0.05;  // the exact foot decides there, in the wedge of a kink, too
+  const auto ahead = [&](const Frame& frame) { return (point.head<2>() - frame.position).dot(frame.tangent); };
+  return is_short_ && (ahead(begin_) < -doubt_m || ahead(end_) > doubt_m);
+}
+
 std::optional<TunnelPoint> TunnelFrames::to_tunnel(const Eigen::Vector3d& point, double near_m) const {
+  if (is_outside(point)) return std::nullopt;
   const Frame* frame = &nearest(near_m);
   for (int turn = 0; turn < 3; ++turn) {
     const auto foot = foot_by(*frame, point);

@@ -40,6 +40,9 @@ class TunnelFrames {
   /// Nearest frame; the first or the last beyond the ends.
   const Frame& nearest(double chainage_m) const;
   std::optional<TunnelPoint> exact(const Eigen::Vector3d& point, double near_m) const;
+  /// True for points before the plane through the beginning of a short stretch, or beyond the one through its end: most
+  /// points of most tiles need no more than that.
+  bool is_outside(const Eigen::Vector3d& point) const;
   bool holds(double chainage_m) const { return chainage_m >= from_m_ && chainage_m < to_m_; }
 
   const Alignment* axis_;
@@ -47,6 +50,9 @@ class TunnelFrames {
   double to_m_;
   double first_m_ = 0.0;
   std::vector<Frame> frames_;
+  bool is_short_ = false;  ///< no plane through the axis within the stretch cuts another within the tunnel
+  Frame begin_;
+  Frame end_;
 };
 
 }  // namespace adit
