@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t block_bytes = std::size_t{1} << 20;
+constexpr std::size_t large_bytes = std::size_t{1} << 18;  // written without a copy
 
 /// The file a name stands for: a link is followed, so that the link stays and its file is replaced.
 fs::path followed(const fs::path& target) {
@@ -117,7 +118,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::append(std::string_view bytes) {
-  if (bytes.size() >= block_bytes) {
+  if (bytes.size() >= large_bytes) {
     flush();
     write_through(bytes.data(), bytes.size());
     return;

@@ -6,13 +6,15 @@
 namespace adit::io {
 namespace {
 
-constexpr std::size_t block_points = 65536;
+/// Few runs are read in long blocks, many in short ones.
+std::size_t block_points_of(std::size_t runs) {
+  constexpr std::size_t all_points = std::size_t{1} << 21;
+  return std::clamp<std::size_t>(all_points / std::max<std::size_t>(runs, 1), 256, 65536);
+}
 
 template <typename T>
-std::uint64_t spool_column(std::vector<T>& values, SpoolFile& file) {
-  const std::uint64_t at = file.append(values.data(), values.size() * sizeof(T));
-  std::vector<T>().swap(values);
-  return at;
+std::uint64_t spool_column(const std::vector<T>& values, SpoolFile& file) {
+  return file.append(values.data(), values.size() * sizeof(T));
 }
 
 template <typename T>
@@ -32,18 +34,23 @@ SortedRun run_of(StoredPoints sorted) {
   return run;
 }
 
-void spool(SortedRun& run, SpoolFile& file) {
-  StoredPoints& points = run.in_memory;
-  run.positions_at = spool_column(points.positions, file);
-  if (run.has_intensity) run.intensity_at = spool_column(points.intensity, file);
-  if (run.has_colour) run.colour_at = spool_column(points.colour, file);
+SortedRun spooled_run(const StoredPoints& sorted, SpoolFile& file) {
+  SortedRun run;
+  run.count = sorted.size();
+  run.has_intensity = !sorted.intensity.empty();
+  run.has_colour = !sorted.colour.empty();
   run.spooled = true;
+  run.positions_at = spool_column(sorted.positions, file);
+  run.intensity_at = spool_column(sorted.intensity, file);
+  run.colour_at = spool_column(sorted.colour, file);
+  return run;
 }
 
 /// A run as far as it has been read: block by block from the spool; one in memory is its own only block.
 struct MergedRuns::Front {
   SortedRun run;
   const SpoolFile& file;
+  std::size_t block_points;
   StoredPoints block;
   std::vector<std::uint64_t> keys;  ///< of the block's points from first_key on
   std::size_t first_key = 0;
@@ -79,8 +86,9 @@ struct MergedRuns::Front {
 };
 
 MergedRuns::MergedRuns(std::vector<SortedRun> runs, const SpoolFile& file, Keep keep) : keep_(keep) {
+  const std::size_t block_points = block_points_of(runs.size());
   for (SortedRun& run : runs) {
-    fronts_.push_back(std::unique_ptr<Front>(new Front{std::move(run), file, {}, {}}));
+    fronts_.push_back(std::unique_ptr<Front>(new Front{std::move(run), file, block_points, {}, {}}));
     if (fronts_.back()->refill()) heap_.push_back(fronts_.size() - 1);
   }
   if (heap_.size() > 1)

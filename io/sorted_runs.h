@@ -12,7 +12,7 @@
 
 namespace adit::io {
 
-/// Points sorted along the curve: in memory, or column by column in a spool file.
+/// Points sorted along the curve, column by column in a spool file; the last of a scan may stay in memory.
 struct SortedRun {
   std::size_t count = 0;
   bool has_intensity = false;
@@ -27,10 +27,10 @@ struct SortedRun {
 /// A run in memory of points that are sorted already.
 SortedRun run_of(StoredPoints sorted);
 
-/// Moves a run to the spool and frees its memory.
-void spool(SortedRun& run, SpoolFile& file);
+/// A run in the spool of points that are sorted already.
+SortedRun spooled_run(const StoredPoints& sorted, SpoolFile& file);
 
-/// Reads runs as one, in order; memory: a block of each spooled run.
+/// Reads runs as one, in order. Memory: a block of each spooled run, together some 64 MB.
 class MergedRuns {
  public:
   MergedRuns(std::vector<SortedRun> runs, const SpoolFile& file, Keep keep);

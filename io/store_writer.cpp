@@ -25,12 +25,19 @@ struct WrittenTile {
 
 std::array<float, 6> box_of(const StoredPoints& points, Keep keep) {
   Eigen::AlignedBox3f box;
-  for (const StoredPosition& p : points.positions) box.extend(position_of(p, keep));
+  if (keep == Keep::float32) {
+    for (const StoredPosition& p : points.positions) box.extend(position_of(p, keep));
+  } else {
+    // Whole numbers are compared faster than the metres they stand for.
+    Eigen::AlignedBox3i steps;
+    for (const StoredPosition& p : points.positions) steps.extend(Eigen::Vector3i(p[0], p[1], p[2]));
+    const auto corner = [&](const Eigen::Vector3i& c) { return position_of({c.x(), c.y(), c.z()}, keep); };
+    box = {corner(steps.min()), corner(steps.max())};
+  }
   return {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()};
 }
 
-WrittenTile written_tile(const StoredPoints& points, Keep keep) {
-  const auto order = even_prefix_order(static_cast<std::uint32_t>(points.size()));
+WrittenTile written_tile(const StoredPoints& points, std::span<const std::uint32_t> order, Keep keep) {
   EncodedTile encoded = encoded_tile(points, order, keep);
   WrittenTile tile;
   tile.row.code = encoded.code;
@@ -75,7 +82,6 @@ bool StoreWriter::begin(const ScanHeader& scan) {
   header_.file_pose = scan.file_pose;
   header_.has_intensity = scan.attributes.intensity;
   header_.has_colour = scan.attributes.colour;
-  filling_.positions.reserve(static_cast<std::size_t>(std::min<std::uint64_t>(scan.points, options_.run_points)));
   return true;
 }
 
@@ -85,46 +91,41 @@ void StoreWriter::take(PointBlock& block) {
   BoundingBox box;
   for (const Eigen::Vector3d& p : block.positions) box.extend(p);
   expect_near_offset(box, header_.offset, where_);
+  watch_ranges(block, box);
   add(block);
   if (filling_.size() >= options_.run_points) close_run();
 }
 
+void StoreWriter::watch_ranges(const PointBlock& block, const BoundingBox& box) {
+  if (!options_.drop_no_returns || !header_.offset.isZero(0.0)) return;
+  const double farthest_m = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm() + stored_step_m;
+  if (shell_.is_beyond(farthest_m)) {
+    shell_.pass(block.size());
+    return;
+  }
+  for (const Eigen::Vector3d& p : block.positions)
+    shell_.add(position_of(stored_position(p, header_.keep), header_.keep));
+}
+
 void StoreWriter::add(const PointBlock& block) {
   points_ += block.size();
-  const bool watch_ranges = options_.drop_no_returns && header_.offset.isZero(0.0);
   const std::size_t before = filling_.size();
-  filling_.positions.resize(before + block.size());
+  filling_.points.resize(before + block.size());
   for (std::size_t i = 0; i < block.size(); ++i) {
-    StoredPosition& stored = filling_.positions[before + i];
-    stored = stored_position(block.positions[i] - header_.offset, header_.keep);
-    if (watch_ranges) shell_.add(position_of(stored, header_.keep));
+    const StoredPosition stored = stored_position(block.positions[i] - header_.offset, header_.keep);
+    filling_.points[before + i] = {curve_key(stored, header_.keep), stored, static_cast<std::uint32_t>(before + i)};
   }
   // Zero has one sign, so that equal points are equal to the bit.
-  const std::size_t intensities = filling_.intensity.size();
-  filling_.intensity.resize(intensities + block.intensity.size());
-  std::transform(block.intensity.begin(), block.intensity.end(),
-                 filling_.intensity.begin() + static_cast<std::ptrdiff_t>(intensities),
-                 [](float value) { return value + 0.0F; });
+  for (const float value : block.intensity) filling_.intensity.push_back(value + 0.0F);
   filling_.colour.insert(filling_.colour.end(), block.colour.begin(), block.colour.end());
 }
 
 /// Sorts what has come, beside the reader.
 void StoreWriter::close_run() {
   sorting_.wait();
-  auto points = std::make_shared<StoredPoints>(std::move(filling_));
-  filling_ = {};
-  filling_.positions.reserve(points->size());
-  sorting_.run([this, points] { add_run(*points); });
-}
-
-void StoreWriter::add_run(const StoredPoints& points) {
-  SortedRun run = run_of(sorter_.sorted(points, header_.keep));
-  const std::uint64_t bytes = run.count * (12U + (run.has_intensity ? 4U : 0U) + (run.has_colour ? 3U : 0U));
-  if (run_bytes_ + bytes > options_.memory_bytes)
-    spool(run, spool_);
-  else
-    run_bytes_ += bytes;
-  runs_.push_back(std::move(run));
+  std::swap(filling_, sorting_points_);
+  filling_.clear();
+  sorting_.run([this] { runs_.push_back(spooled_run(sorter_.sorted(sorting_points_), spool_)); });
 }
 
 void StoreWriter::end(std::uint64_t no_returns) {
@@ -150,7 +151,8 @@ void StoreWriter::commit(Progress& progress) {
     throw Error("no point is left after taking out pulses without echo", where_, "check the export");
   sorting_.wait();
   progress.check();
-  if (filling_.size() > 0) add_run(filling_);
+  sorting_points_ = {};
+  if (filling_.size() > 0) runs_.push_back(run_of(std::move(sorter_.sorted(filling_))));
   filling_ = {};
   sorter_ = {};
   write_tiles(std::move(runs_), progress);
@@ -166,6 +168,10 @@ void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
   MergedRuns merged(std::move(runs), spool_, keep);
   AtomicFile file(path_);
   file.append(store_beginning());
+  // Tiles differ in length by one point at the most.
+  const auto least_points = static_cast<std::uint32_t>(header_.points / tiles);
+  const std::array<std::vector<std::uint32_t>, 2> orders = {even_prefix_order(least_points),
+                                                            even_prefix_order(least_points + 1)};
   std::size_t next = 0;
   const auto next_tile = [&](tbb::flow_control& control) {
     auto points = std::make_shared<StoredPoints>();
@@ -190,7 +196,8 @@ void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
           tbb::make_filter<std::shared_ptr<StoredPoints>, std::shared_ptr<WrittenTile>>(
               tbb::filter_mode::parallel,
               [&](const std::shared_ptr<StoredPoints>& points) {
-                return std::make_shared<WrittenTile>(written_tile(*points, keep));
+                return std::make_shared<WrittenTile>(
+                    written_tile(*points, orders.at(points->size() - least_points), keep));
               }) &
           tbb::make_filter<std::shared_ptr<WrittenTile>, void>(tbb::filter_mode::serial_in_order, append));
   file.append(store_end(header_));

@@ -10,6 +10,7 @@
 
 #include "core/cleaning/no_returns.h"
 #include "core/foundation/progress.h"
+#include "io/curve_sorter.h"
 #include "io/point_store_header.h"
 #include "io/scan_formats.h"
 #include "io/scan_stream.h"
@@ -22,10 +23,9 @@ struct StoreOptions {
   std::string source_sha256;  ///< of the file it comes from (64 hexadecimal digits, or empty)
   std::uint64_t scan = 0;     ///< which scan of the file, from 1; 0: the only one it may hold
   Keep keep = Keep::tenth_millimetre;
-  /// For sorted points that wait for their tiles; what does not fit is spooled.
-  std::uint64_t memory_bytes = std::uint64_t{1} << 30;
-  /// Points sorted at once, some 70 bytes each on top: few enough for the sort to stay near the processor.
-  std::size_t run_points = std::size_t{1} << 22;
+  /// Points sorted at once, some 100 bytes each: few, so that they stay near the processor. Sorted runs wait in a
+  /// spool file.
+  std::size_t run_points = std::size_t{1} << 17;
   /// Leave out pulses without an echo (NoReturnShell), where the scanner is at the origin.
   bool drop_no_returns = true;
 };
@@ -58,9 +58,9 @@ class StoreWriter : public ScanSink {
 
  private:
   void expect_the_scan() const;
+  void watch_ranges(const PointBlock& block, const BoundingBox& box);
   void add(const PointBlock& block);
   void close_run();
-  void add_run(const StoredPoints& points);
   void write_tiles(std::vector<SortedRun> runs, Progress& progress);
 
   std::filesystem::path path_;
@@ -72,12 +72,12 @@ class StoreWriter : public ScanSink {
   bool first_block_ = true;
   std::uint64_t points_ = 0;
   NoReturnShell shell_;
-  StoredPoints filling_;
+  UnsortedPoints filling_;
+  UnsortedPoints sorting_points_;
   SpoolFile spool_;
   CurveSorter sorter_;
   std::vector<SortedRun> runs_;
-  std::uint64_t run_bytes_ = 0;  ///< of the runs in memory
-  tbb::task_group sorting_;      ///< at most one run at a time, beside the reader
+  tbb::task_group sorting_;  ///< at most one run at a time, beside the reader
 };
 
 /// A scan in memory as a store (tests, small clouds). Errors as StoreWriter.

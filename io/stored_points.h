@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <cstdint>
 #include <vector>
 
@@ -70,25 +72,38 @@ struct StoredPoints {
   }
 };
 
+inline constexpr std::int32_t farthest_curve_cell = (1 << 20) - 1;
+// Scans reach some 100 m: with this much added their cells need 16 bits an axis, and the sort fewer passes.
+inline constexpr std::int32_t middle_curve_cell = 1 << 15;
+
+inline std::uint64_t curve_cell(std::int32_t stored, Keep keep) {
+  constexpr int steps_a_cell_bits = 5;  // 32 steps of 0.1 mm
+  constexpr double cells_a_metre = 312.5;
+  std::int32_t cell = stored >> steps_a_cell_bits;
+  if (keep == Keep::float32) {
+    const double exact = std::floor(static_cast<double>(std::bit_cast<float>(stored)) * cells_a_metre);
+    cell = static_cast<std::int32_t>(std::clamp<double>(exact, -farthest_curve_cell, farthest_curve_cell));
+  }
+  cell = std::clamp(cell, -farthest_curve_cell, farthest_curve_cell) + middle_curve_cell;
+  return static_cast<std::uint64_t>(cell) & 0x1FFFFF;
+}
+
 /// Where a point stands along the space-filling curve: by its cell of 3.2 mm. Beyond 3 km from the offset all cells of
 /// a side are one.
-std::uint64_t curve_key(const StoredPosition& stored, Keep keep);
+inline std::uint64_t curve_key(const StoredPosition& stored, Keep keep) {
+  return morton_key(curve_cell(stored[0], keep), curve_cell(stored[1], keep), curve_cell(stored[2], keep));
+}
+
+/// By x, then y, then z. (std::array compares by a call of memcmp, which costs more than the three numbers.)
+inline std::strong_ordering order_of(const StoredPosition& a, const StoredPosition& b) {
+  if (a[0] != b[0]) return a[0] <=> b[0];
+  if (a[1] != b[1]) return a[1] <=> b[1];
+  return a[2] <=> b[2];
+}
 
 /// A total order of points: along the curve, then by coordinates and attributes. Two points that compare equal are the
 /// same to the bit, so a sort does not depend on the order they came in.
 bool comes_before(const StoredPoints& a, std::size_t i, std::uint64_t key_a, const StoredPoints& b, std::size_t k,
                   std::uint64_t key_b);
-
-/// Sorts points in that order; keeps its memory for the next time.
-class CurveSorter {
- public:
-  StoredPoints sorted(const StoredPoints& points, Keep keep);
-
- private:
-  void put_equal_keys_in_order(const StoredPoints& points);
-
-  std::vector<KeyedIndex> items_;
-  std::vector<KeyedIndex> scratch_;
-};
 
 }  // namespace adit::io

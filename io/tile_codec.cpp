@@ -21,46 +21,50 @@ unsigned bits_for(std::uint32_t largest) {
 unsigned intensity_width(const std::vector<float>& values) {
   float largest = 0.0F;
   for (const float value : values) {
-    if (!(value >= 0.0F && value <= 65535.0F) || value != std::floor(value) || std::signbit(value)) return 32;
+    if (!(value >= 0.0F && value <= 65535.0F) || std::signbit(value)) return 32;
+    if (value != static_cast<float>(static_cast<std::int32_t>(value))) return 32;
     largest = std::max(largest, value);
   }
   return bits_for(static_cast<std::uint32_t>(largest));
 }
 
-class ColumnPacker {
- public:
-  ColumnPacker(EncodedTile& tile, std::size_t count) : tile_(tile), numbers_(count) {}
-  template <typename NumberOf>
-  void pack(std::size_t column, unsigned width, const NumberOf& number_of) {
-    for (std::size_t i = 0; i < numbers_.size(); ++i) numbers_[i] = number_of(i);
-    tile_.code.width[column] = static_cast<std::uint8_t>(width);
-    pack_bits(numbers_, width, tile_.bytes);
-    tile_.bytes.resize(column_offset(tile_.code, column + 1));
-  }
+void pack(std::size_t column, std::span<const std::uint32_t> numbers, unsigned width, EncodedTile& tile) {
+  tile.code.width[column] = static_cast<std::uint8_t>(width);
+  pack_bits(numbers, width, tile.bytes);
+  tile.bytes.resize(column_offset(tile.code, column + 1));
+}
 
- private:
-  EncodedTile& tile_;
-  std::vector<std::uint32_t> numbers_;
-};
-
-void pack_positions(const StoredPoints& points, std::span<const std::uint32_t> order, Keep keep, EncodedTile& tile,
-                    ColumnPacker& packer) {
-  std::array<std::vector<std::int32_t>, 3> axes;
-  for (auto& axis : axes) axis.resize(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) axes[axis][i] = points.positions[order[i]][axis];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::vector<std::int32_t>& values = axes[axis];
-    if (keep == Keep::float32) {
-      packer.pack(axis, 32, [&](std::size_t i) { return static_cast<std::uint32_t>(values[i]); });
-      continue;
+/// Least coordinates and the bits that the greatest takes above them; float32 is kept as it is.
+void choose_widths(const StoredPoints& points, Keep keep, TileCode& code) {
+  code.width = {32, 32, 32, 0, 0};
+  if (keep == Keep::float32 || points.size() == 0) return;
+  const StoredPosition first = points.positions.front();
+  StoredPosition least = first;
+  StoredPosition most = first;
+  for (const StoredPosition& p : points.positions)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      least[axis] = std::min(least[axis], p[axis]);
+      most[axis] = std::max(most[axis], p[axis]);
     }
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    const auto zero = static_cast<std::uint32_t>(*least);
-    tile.code.origin[axis] = *least;
-    packer.pack(axis, bits_for(static_cast<std::uint32_t>(*most) - zero),
-                [&](std::size_t i) { return static_cast<std::uint32_t>(values[i]) - zero; });
+  code.origin = least;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    code.width[axis] = static_cast<std::uint8_t>(
+        bits_for(static_cast<std::uint32_t>(most[axis]) - static_cast<std::uint32_t>(least[axis])));
+}
+
+void pack_positions(const StoredPoints& points, std::span<const std::uint32_t> order, Keep keep, EncodedTile& tile) {
+  choose_widths(points, keep, tile.code);
+  const std::size_t n = order.size();
+  std::vector<std::uint32_t> numbers(3 * n);
+  const auto zero = [&](std::size_t axis) { return static_cast<std::uint32_t>(tile.code.origin[axis]); };
+  const std::uint32_t zeros[] = {zero(0), zero(1), zero(2)};
+  for (std::size_t i = 0; i < n; ++i) {
+    const StoredPosition& p = points.positions[order[i]];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      numbers[axis * n + i] = static_cast<std::uint32_t>(p[axis]) - zeros[axis];
   }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    pack(axis, std::span(numbers).subspan(axis * n, n), tile.code.width[axis], tile);
 }
 
 void unpack_axis(const TileCode& code, const std::byte* from, std::size_t axis, Keep keep, PointCloud& cloud) {
@@ -93,20 +97,24 @@ std::size_t tile_bytes(const TileCode& code) {
 EncodedTile encoded_tile(const StoredPoints& points, std::span<const std::uint32_t> order, Keep keep) {
   EncodedTile tile;
   tile.code.count = static_cast<std::uint32_t>(order.size());
-  ColumnPacker packer(tile, order.size());
-  pack_positions(points, order, keep, tile, packer);
+  tile.bytes.reserve(order.size() * 20);
+  pack_positions(points, order, keep, tile);
+  std::vector<std::uint32_t> numbers(order.size());
   if (!points.intensity.empty()) {
     const unsigned width = intensity_width(points.intensity);
-    packer.pack(intensity_column, width, [&](std::size_t i) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
       const float value = points.intensity[order[i]];
-      return width == 32 ? std::bit_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
-    });
+      numbers[i] = width == 32 ? std::bit_cast<std::uint32_t>(value) : static_cast<std::uint32_t>(value);
+    }
+    pack(intensity_column, numbers, width, tile);
   }
-  if (!points.colour.empty())
-    packer.pack(colour_column, 24, [&](std::size_t i) {
+  if (!points.colour.empty()) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
       const auto& c = points.colour[order[i]];
-      return std::uint32_t{c[0]} | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16;
-    });
+      numbers[i] = std::uint32_t{c[0]} | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16;
+    }
+    pack(colour_column, numbers, 24, tile);
+  }
   tile.bytes.resize(tile_bytes(tile.code));
   return tile;
 }

@@ -105,24 +105,22 @@ void make_store(const JobState& state, const JobScan& scan, const std::filesyste
   writer.commit(writing);
 }
 
-void import_scan(const JobState& state, std::size_t index, std::uint64_t memory_bytes, Progress& progress) {
-  constexpr std::uint64_t sorting_bytes_a_point = 70;
+void import_scan(const JobState& state, std::size_t index, Progress& progress) {
   const JobScan& scan = state.job.scans[index];
   const std::filesystem::path target = store_file(state, index);
-  io::StoreOptions options = store_options(state, scan);
-  options.memory_bytes = memory_bytes / 2;
-  options.run_points = static_cast<std::size_t>(
-      std::clamp<std::uint64_t>(memory_bytes / 2 / sorting_bytes_a_point, 65536, options.run_points));
+  const io::StoreOptions options = store_options(state, scan);
   if (!is_made_already(target, options, progress)) make_store(state, scan, target, options, progress);
   check_unit(io::PointStore(target), (state.folder / scan.file).string());
 }
 
-/// Several scans at once, as many as there are threads. The first bad one in the order of the job is what is reported,
-/// whichever was read first.
+/// Several scans at once, as many as there are threads and memory for. The first bad one in the order of the job is
+/// what is reported, whichever was read first.
 void import_scans(const JobState& state, Progress& progress) {
+  constexpr std::uint64_t bytes_a_scan = 150'000'000;  // runs, their fronts, and tiles on their way
   const std::size_t scans = state.job.scans.size();
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  const std::size_t at_once = std::min(scans, threads);
+  const auto fit = static_cast<std::size_t>(std::max<std::uint64_t>(1, state.memory_bytes / bytes_a_scan));
+  const std::size_t at_once = std::min({scans, threads, fit});
   std::vector<Progress> parts;
   for (const JobScan& scan : state.job.scans)
     parts.push_back(progress.part(1.0 / static_cast<double>(scans), "reading " + scan.file));
@@ -132,7 +130,7 @@ void import_scans(const JobState& state, Progress& progress) {
   const auto work = [&] {
     for (std::size_t i = next++; i < scans && !failed; i = next++) {
       try {
-        import_scan(state, i, state.memory_bytes / 2 / at_once, parts[i]);
+        import_scan(state, i, parts[i]);
       } catch (...) {
         errors[i] = std::current_exception();
         failed = true;

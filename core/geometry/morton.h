@@ -36,10 +36,6 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
-/// Sorts by key; equal keys keep their order. Radix sort: the time grows with the bits in which the keys differ.
-/// `scratch` becomes as long as items; keep it for the next call.
-void sort_by_key(std::vector<KeyedIndex>& items, std::vector<KeyedIndex>& scratch);
-
 /// Positions 0 .. n-1 in bit-reversed order: every prefix is spread evenly over the whole.
 std::vector<std::uint32_t> even_prefix_order(std::uint32_t n);
 

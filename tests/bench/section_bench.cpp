@@ -36,12 +36,11 @@ void bench_sections(const std::string& job) {
 void bench_slice(const std::string& job) {
   Progress progress;
   app::RunOptions options;
-  options.only_take_up = true;
+  options.last_step = "import";
   const auto state = app::run_job(job, options, progress);
-  if (state->stores.empty()) throw Error("the job is not imported", job, "run adit import first");
   std::vector<PlacedTiles> scans;
   for (const auto& store : state->stores) scans.push_back({store->name(), store, Pose::Identity(), true});
-  const BoundingBox slice(Eigen::Vector3d(-10.0, -100.0, -100.0), Eigen::Vector3d(-9.9, 100.0, 100.0));
+  const BoundingBox slice(Eigen::Vector3d(2.0, -100.0, -100.0), Eigen::Vector3d(2.1, 100.0, 100.0));
   std::printf("%zu points\n", points_in_box(scans, slice, progress).size());
 }
 
