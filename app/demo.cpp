@@ -137,7 +137,7 @@ std::vector<ControlPoint> true_control(const Demo& demo) {
 bool sees(const Demo& demo, const Pose& pose, const Eigen::Vector3d& target) {
   const Eigen::Vector3d ray = target - pose.translation();
   if (ray.norm() > 18.0) return false;
-  const auto hit = demo.tunnel.cast(pose.translation(), ray.normalized(), 45.0, {});
+  const auto hit = demo.tunnel.cast(pose.translation(), ray.normalized(), 45.0, {}, demo.tunnel.frames());
   return hit && hit->range_m > ray.norm() - 0.02;
 }
 

@@ -118,14 +118,18 @@ double RockTunnel::clutter_distance(const TunnelPoint& point, Surface& surface) 
   if (face - 14.0 - point.s_m > best) return best;  // the rig and the muck are farther
   const Eigen::Vector3d q(point.s_m, point.x_m, point.z_m);
   const double right = 0.30 * half_width_m_;
-  offer(box_distance(q, {face - 14.0, right - 1.1, 0.4}, {face - 8.0, right + 1.1, 2.3}), Surface::rig);
-  offer(box_distance(q, {face - 13.0, right - 0.8, 2.3}, {face - 11.2, right + 0.8, 2.9}), Surface::rig);
-  offer(box_distance(q, {face - 8.0, right - 0.15, 1.5}, {face - 4.5, right + 0.15, 1.8}), Surface::rig);
-  for (const double wheel : {-13.2, -9.0})
-    for (const double side : {-0.95, 0.95})
-      offer(box_distance(q, {face + wheel - 0.5, right + side - 0.2, -0.5},
-                         {face + wheel + 0.5, right + side + 0.2, 0.5}),
-            Surface::rig);
+  const auto offer_rig = [&](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    offer(box_distance(q, low, high), Surface::rig);
+  };
+  // One box about the whole rig spares most points its parts.
+  if (box_distance(q, {face - 14.0, right - 1.2, -0.5}, {face - 4.5, right + 1.2, 2.9}) < best) {
+    offer_rig({face - 14.0, right - 1.1, 0.4}, {face - 8.0, right + 1.1, 2.3});
+    offer_rig({face - 13.0, right - 0.8, 2.3}, {face - 11.2, right + 0.8, 2.9});
+    offer_rig({face - 8.0, right - 0.15, 1.5}, {face - 4.5, right + 0.15, 1.8});
+    for (const double wheel : {-13.2, -9.0})
+      for (const double side : {-0.95, 0.95})
+        offer_rig({face + wheel - 0.5, right + side - 0.2, -0.5}, {face + wheel + 0.5, right + side + 0.2, 0.5});
+  }
   const double run = std::clamp((point.s_m - (face - 4.0)) / 4.0, 0.0, 1.0);
   const double across = std::clamp(std::abs(point.x_m) / half_width_m_, 0.0, 1.0);
   const double heap = 2.2 * run * run * (1.0 - 0.35 * across * across) - 0.3;
@@ -153,23 +157,30 @@ RockTunnel::Nearness RockTunnel::nearness(const TunnelPoint& point, const std::v
   return nearest;
 }
 
+TunnelFrames RockTunnel::frames() const {
+  return {design_.alignment(), options_.from_m, design_.alignment().to_m()};
+}
+
 std::optional<RockTunnel::Hit> RockTunnel::cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                                                double most_range_m, const std::vector<Eigen::Vector2d>& people) const {
+                                                double most_range_m, const std::vector<Eigen::Vector2d>& people,
+                                                const TunnelFrames& frames) const {
   const auto start = design_.alignment().to_tunnel(origin);
   if (!start) return std::nullopt;
   double hint = start->s_m;
-  const auto near_at = [&](double t) -> std::optional<Nearness> {
-    const auto point = design_.alignment().to_tunnel(origin + t * direction, hint);
+  const auto near = [&](const std::optional<TunnelPoint>& point) -> std::optional<Nearness> {
     if (!point || point->s_m < options_.from_m) return std::nullopt;
     hint = point->s_m;
     return nearness(*point, people);
   };
+  // The way through the air may be a hundredth of a millimetre wrong; the surface itself is met exactly.
+  const auto roughly_near_at = [&](double t) { return near(frames.to_tunnel(origin + t * direction, hint)); };
+  const auto near_at = [&](double t) { return near(design_.alignment().to_tunnel(origin + t * direction, hint)); };
   double t = 0.2;
-  auto here = near_at(t);
+  auto here = roughly_near_at(t);
   if (!here || here->value_m <= 0.0) return std::nullopt;
   while (t <= most_range_m) {
     const double next_t = t + std::max(0.75 * here->value_m, 0.004);
-    const auto next = near_at(next_t);
+    const auto next = roughly_near_at(next_t);
     if (!next) return std::nullopt;
     if (next->value_m > 0.0) {
       t = next_t;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/design/design_tunnel.h"
+#include "core/profiling/tunnel_frames.h"
 
 namespace adit {
 
@@ -64,7 +65,9 @@ class RockTunnel {
     Surface surface = Surface::rock;
   };
   std::optional<Hit> cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double most_range_m,
-                          const std::vector<Eigen::Vector2d>& people) const;
+                          const std::vector<Eigen::Vector2d>& people, const TunnelFrames& frames) const;
+  /// For cast(): made once for many rays; this tunnel must outlive them.
+  TunnelFrames frames() const;
 
  private:
   void fill_grid();

@@ -77,11 +77,12 @@ TEST(Scanner, PointsWithoutNoiseLieOnTheRock) {
 TEST(Scanner, RigAndDuctHideWhatIsBehind) {
   const RockTunnel rock = sample_rock(150.0, true);
   const Pose pose = station(rock.design(), 55.0, 0.0);
+  const TunnelFrames frames = rock.frames();
   std::size_t rig = 0, duct = 0, rays = 0;
   for (double a = 0.0; a < 2.0 * pi; a += 0.01)
     for (double e = -0.6; e < 1.2; e += 0.02) {
       const Eigen::Vector3d d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
-      const auto hit = rock.cast(pose.translation(), d, 45.0, {});
+      const auto hit = rock.cast(pose.translation(), d, 45.0, {}, frames);
       if (!hit) continue;
       ++rays;
       rig += hit->surface == Surface::rig;
