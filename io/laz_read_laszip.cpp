@@ -149,12 +149,12 @@ void stream_laz(const std::filesystem::path& path, const ReadOptions& options, S
   const InputFile file(path);
   const LasHeader header = read_las_header(file, LasPoints::compressed);
   const LazPacking packing = read_laz_packing(file, header);
-  const Attributes has = las_attributes(header);
+  const Attributes has = options.positions_only ? Attributes{} : las_attributes(header);
   PointStream out({path.stem().string(), file.name(), has, std::nullopt, header.points, header.box}, options,
                   NanMeans::invalid, sink);
   if (!out.wanted()) return;
   const int shift = has.colour && colours_fill_16_bits(file, header, packing, progress) ? 8 : 0;
-  Points points(file, header, packing, coordinates | intensities | (has.colour ? colours : 0));
+  Points points(file, header, packing, coordinates | (has.intensity ? intensities : 0) | (has.colour ? colours : 0));
   FilePoint point;
   for (std::uint64_t i = 0; i < header.points; ++i) {
     if (i % points_between_checks == 0) progress.step(i, header.points);

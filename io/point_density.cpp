@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/foundation/angle.h"
-#include "core/geometry/bounding_box.h"
 #include "core/geometry/nearest_neighbours.h"
 #include "core/geometry/statistics.h"
 
@@ -46,13 +45,14 @@ double PointDensity::spacing_m() const {
   return 1.0 / std::sqrt(points_per_m2);
 }
 
-std::optional<PointDensity> point_density(const std::vector<Eigen::Vector3d>& points, double stands_for) {
+std::optional<PointDensity> point_density(const std::vector<Eigen::Vector3d>& points, double stands_for,
+                                          const BoundingBox& box) {
   if (points.size() < least_points) return std::nullopt;
-  BoundingBox box;
-  for (const Eigen::Vector3d& p : points) box.extend(p);
-  if (box.sizes().maxCoeff() > beyond_any_site_m) return std::nullopt;  // float32 would not hold them either
+  BoundingBox own_box;
+  for (const Eigen::Vector3d& p : points) own_box.extend(p);
+  if (own_box.sizes().maxCoeff() > beyond_any_site_m) return std::nullopt;  // float32 would not hold them either
   std::vector<double> all, near;
-  for (const LocalDensity& local : local_densities(points, box.center(), stands_for)) {
+  for (const LocalDensity& local : local_densities(points, own_box.center(), stands_for)) {
     all.push_back(local.points_per_m2);
     if (std::abs(local.range_m - distance_m) > band_m) continue;
     near.push_back(local.points_per_m2 * std::pow(local.range_m / distance_m, 2));

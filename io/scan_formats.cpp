@@ -16,6 +16,7 @@
 #include "io/ply.h"
 #include "io/pts.h"
 #include "io/ptx.h"
+#include "io/scan_beginning.h"
 #include "io/scan_collector.h"
 #include "io/scan_from_memory.h"
 #include "io/scan_sample.h"
@@ -172,6 +173,8 @@ ScanFileSummary summarise_scan_file(const fs::path& file, Progress& progress) {
     WholeScans whole;
     format.stream(file, {.drop_invalid = true}, whole, progress);
     whole.complete(summary);
+  } else {
+    complete_from_beginnings(summary, file, format.stream, progress);
   }
   return summary;
 }

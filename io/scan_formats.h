@@ -67,7 +67,8 @@ struct ScanFileSummary {
 
 /// How to read.
 struct ReadOptions {
-  bool drop_invalid = false;  ///< leave out points that are not finite instead of refusing the file
+  bool drop_invalid = false;    ///< leave out points that are not finite instead of refusing the file
+  bool positions_only = false;  ///< leave out attributes where unpacking them takes time of its own (LAZ)
 };
 
 /// True when the ending or the first bytes name a scan format this build knows.

@@ -124,7 +124,7 @@ void take_sample(ScanSummary& summary, const ScanSample& sample) {
     summary.box_from = "sample";
   }
   summary.sampled_points = sample.points;
-  summary.density = point_density(sample.spread, sample.stands_for);
+  summary.density = point_density(sample.spread, sample.stands_for, sample.box);
 }
 
 bool WholeScans::begin(const ScanHeader&) {

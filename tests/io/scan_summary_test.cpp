@@ -1,6 +1,10 @@
 // What is said of a file without reading it: header and sample. Files of more than 8 MiB are sampled.
 
+#include <algorithm>
+
 #include "core/foundation/angle.h"
+#include "io/e57.h"
+#include "io/laz.h"
 #include "tests/io/scan_samples.h"
 
 namespace adit::io {
@@ -159,7 +163,35 @@ TEST(ScanSummary, SaysNoBoxWhereALookCannotTell) {
   EXPECT_EQ(summary.points, 600'000U);
   EXPECT_TRUE(summary.box.isEmpty());
   EXPECT_EQ(summary.box_from, "");
-  EXPECT_FALSE(summary.density);
+}
+
+/// The density that is said of a file in which points cannot be jumped to.
+std::optional<PointDensity> density_in(const std::string& name, const ScanData& scan) {
+  const tests::TemporaryFolder folder;
+  tests::write_one(folder / name, scan);
+  const ScanSummary summary = tests::summary(folder / name).scans.at(0);
+  EXPECT_TRUE(!summary.density || (summary.sampled_points > 150'000 && summary.sampled_points < 400'000)) << name;
+  return summary.density;
+}
+
+TEST(ScanSummarySlow, BeginningOfAFileWhosePointsCannotBeJumpedTo) {
+  std::vector<std::string> names;
+  if (e57_is_built_in()) names.emplace_back("a.e57");
+  if (laz_is_built_in()) names.emplace_back("a.laz");
+  const std::size_t points = 3 * many;  // more than 8 MiB of LAZ
+  const ScanData strewn = sphere(points);
+  ScanData in_order = strewn;
+  const auto azimuth = [](const Eigen::Vector3f& p) { return std::atan2(p.y(), p.x()); };
+  std::sort(in_order.cloud.points.begin(), in_order.cloud.points.end(),
+            [&](const auto& a, const auto& b) { return azimuth(a) < azimuth(b); });
+  for (const std::string& name : names) {
+    for (const ScanData& scan : {strewn, in_order}) {
+      const auto density = density_in(name, scan);
+      ASSERT_TRUE(density) << name;
+      EXPECT_EQ(density->distance_m, 5.0) << name;
+      EXPECT_NEAR(density->points_per_m2 / density_of_sphere(points), 1.0, 0.2) << name;
+    }
+  }
 }
 
 std::string fact(const ScanFileSummary& summary, const std::string& name) {
