@@ -11,9 +11,6 @@
 
 namespace adit::io {
 
-/// Whether file_pose is written beside the points, or applied to them (formats without a pose).
-enum class PoseGoes { beside_points, into_points };
-
 /// Makes the format's own writer for scans with these facts.
 using MakeWriter = std::function<std::unique_ptr<ScanWriter>(const std::vector<ScanFacts>&)>;
 

@@ -47,6 +47,10 @@ std::string words_of(const ScanFacts& facts) {
 }
 
 /// The nodes of one file, which all hang on it.
+double whole_offset(double least, double greatest) {
+  return std::round((least + greatest) / 2.0);
+}
+
 class Nodes {
  public:
   explicit Nodes(e57::ImageFile file) : file_(std::move(file)) {}
@@ -59,7 +63,7 @@ class Nodes {
   /// A coordinate of the records: whole steps about a whole-metre offset, or a double.
   e57::Node coordinate(double least, double greatest, bool as_double) const {
     if (as_double) return FloatNode(file_, least, e57::E57_DOUBLE, least, greatest);
-    const double offset = std::round((least + greatest) / 2.0);
+    const double offset = whole_offset(least, greatest);
     const auto steps = [&](double value) { return static_cast<std::int64_t>(std::floor((value - offset) / scale_m)); };
     return e57::ScaledIntegerNode(file_, std::int64_t{0}, std::min<std::int64_t>(0, steps(least)),
                                   std::max<std::int64_t>(0, steps(greatest) + 1), scale_m, offset);
@@ -90,21 +94,38 @@ StructureNode pose_node(const Nodes& make, const Pose& pose) {
   return node;
 }
 
+bool as_doubles(const ScanFacts& facts, bool wanted) {
+  return wanted || facts.box.sizes().maxCoeff() / scale_m > most_steps;
+}
+
+/// The box of the points as they are stored.
+BoundingBox stored_box(const ScanFacts& facts, bool doubles) {
+  BoundingBox box = facts.box;
+  if (doubles) return box;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double offset = whole_offset(facts.box.min()[k], facts.box.max()[k]);
+    for (double* value : {&box.min()[k], &box.max()[k]})
+      *value = std::floor((*value - offset) / scale_m + 0.5) * scale_m + offset;
+  }
+  return box;
+}
+
 bool whole_intensity(const ScanFacts& facts) {
   return facts.whole_intensities && std::abs(facts.least_intensity) < 1e9F && std::abs(facts.greatest_intensity) < 1e9F;
 }
 
 /// Name, pose, box and limits.
-StructureNode scan_node(const Nodes& make, const ScanFacts& facts, const std::string& guid) {
+StructureNode scan_node(const Nodes& make, const ScanFacts& facts, const std::string& guid, bool doubles) {
   StructureNode scan = make.structure();
   scan.set("guid", make.text(guid));
   scan.set("name", make.text(facts.header.name));
   if (facts.header.file_pose) scan.set("pose", pose_node(make, *facts.header.file_pose));
   StructureNode box = make.structure();
+  const BoundingBox stored = stored_box(facts, as_doubles(facts, doubles));
   const std::array<const char*, 3> axes{"x", "y", "z"};
   for (int k = 0; k < 3; ++k) {
-    box.set(std::string(axes[static_cast<std::size_t>(k)]) + "Minimum", make.number(facts.box.min()[k]));
-    box.set(std::string(axes[static_cast<std::size_t>(k)]) + "Maximum", make.number(facts.box.max()[k]));
+    box.set(std::string(axes[static_cast<std::size_t>(k)]) + "Minimum", make.number(stored.min()[k]));
+    box.set(std::string(axes[static_cast<std::size_t>(k)]) + "Maximum", make.number(stored.max()[k]));
   }
   scan.set("cartesianBounds", box);
   const Attributes& has = facts.header.attributes;
@@ -137,7 +158,7 @@ StructureNode scan_node(const Nodes& make, const ScanFacts& facts, const std::st
 std::vector<std::pair<E57Field, e57::Node>> record_fields(const Nodes& make, const ScanFacts& facts, bool doubles) {
   const Attributes& has = facts.header.attributes;
   std::vector<std::pair<E57Field, e57::Node>> fields;
-  const bool as_double = doubles || facts.box.sizes().maxCoeff() / scale_m > most_steps;
+  const bool as_double = as_doubles(facts, doubles);
   for (const E57Field field : {e57_x, e57_y, e57_z})
     fields.emplace_back(field, make.coordinate(facts.box.min()[static_cast<Eigen::Index>(field)],
                                                facts.box.max()[static_cast<Eigen::Index>(field)], as_double));
@@ -187,7 +208,7 @@ class E57Writer : public ScanWriter {
   bool begin(const ScanHeader&) override {
     with_words([&] {
       const ScanFacts& facts = facts_.at(begun_++);
-      StructureNode scan = scan_node(make_, facts, guid_of(guid_ + std::to_string(begun_)));
+      StructureNode scan = scan_node(make_, facts, guid_of(guid_ + std::to_string(begun_)), doubles_);
       scans_.append(scan);
       StructureNode record = make_.structure();
       std::vector<e57::SourceDestBuffer> buffers;

@@ -1,6 +1,9 @@
 #pragma once
 // Intensities into formats that hold a fixed range.
 
+#include <algorithm>
+#include <vector>
+
 #include "io/scan_writer.h"
 
 namespace adit::io {
@@ -21,6 +24,21 @@ inline IntensityRange intensity_range(const ScanFacts& facts, double most, bool 
   if (low >= 0.0 && high <= most && (!whole || facts.whole_intensities)) return {};
   if (low >= 0.0 && high <= 1.0) return {0.0, most};
   return {low, high > low ? most / (high - low) : 1.0};
+}
+
+/// The intensities of several scans as those of one.
+inline ScanFacts all_intensities(const std::vector<ScanFacts>& scans) {
+  ScanFacts all;
+  for (const ScanFacts& scan : scans) {
+    if (!scan.header.attributes.intensity) continue;
+    const bool first = !all.header.attributes.intensity;
+    all.header.attributes.intensity = true;
+    all.least_intensity = first ? scan.least_intensity : std::min(all.least_intensity, scan.least_intensity);
+    all.greatest_intensity =
+        first ? scan.greatest_intensity : std::max(all.greatest_intensity, scan.greatest_intensity);
+    all.whole_intensities = all.whole_intensities && scan.whole_intensities;
+  }
+  return all;
 }
 
 }  // namespace adit::io

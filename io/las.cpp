@@ -48,8 +48,9 @@ void stream_las(const std::filesystem::path& path, const ReadOptions& options, S
   const LasHeader header = read_las_header(file);
   const Attributes attributes = las_attributes(header);
   const std::uint16_t colour_offset = las_point_format(header.point_format).colour_offset.value_or(0);
-  PointStream out({path.stem().string(), file.name(), attributes, std::nullopt, header.points, header.box}, options,
-                  NanMeans::invalid, sink);
+  PointStream out(
+      {path.stem().string(), file.name(), attributes, std::nullopt, header.points, header.box, las_unit(file, header)},
+      options, NanMeans::invalid, sink);
   if (!out.wanted()) return;
   const int shift = attributes.colour && colours_fill_16_bits(file, header, progress) ? 8 : 0;
   ByteCursor cursor(file, header.points_offset, file.size());

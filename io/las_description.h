@@ -13,4 +13,8 @@ namespace adit::io {
 /// passed over.
 std::vector<HeaderFact> las_description(const InputFile& file, const LasHeader& header);
 
+/// Unit of the coordinates ("foot", "US survey foot", "degree", ...) where the GeoTIFF keys or the well-known text say
+/// that it is not the metre; else empty.
+std::string las_unit(const InputFile& file, const LasHeader& header);
+
 }  // namespace adit::io

@@ -36,8 +36,8 @@ std::string header_of(const ScanFacts& scan, const LasGrid& grid) {
     const auto k = static_cast<Eigen::Index>(axis);
     put(bytes, 131 + 8 * axis, grid.scale_m);
     put(bytes, 155 + 8 * axis, grid.offset[k]);
-    put(bytes, 179 + 16 * axis, scan.box.max()[k]);
-    put(bytes, 187 + 16 * axis, scan.box.min()[k]);
+    put(bytes, 179 + 16 * axis, grid.rounded(scan.box.max())[k]);  // the box of the points as they are stored
+    put(bytes, 187 + 16 * axis, grid.rounded(scan.box.min())[k]);
   }
   put<std::uint64_t>(bytes, 247, scan.points);
   put<std::uint64_t>(bytes, 255, scan.points);  // all of them first returns
@@ -70,9 +70,8 @@ class LasWriter : public ScanWriter {
 
  private:
   void fill_record(const PointBlock& block, std::size_t i) {
-    const Eigen::Vector3d steps = (block.positions[i] - grid_.offset) / grid_.scale_m;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      put(record_, 4 * axis, static_cast<std::int32_t>(std::lround(steps[static_cast<Eigen::Index>(axis)])));
+    const auto steps = grid_.steps(block.positions[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis) put(record_, 4 * axis, steps[axis]);
     if (!block.intensity.empty()) put(record_, 12, static_cast<std::uint16_t>(std::lround(range_(block.intensity[i]))));
     put<std::uint8_t>(record_, 14, 0x11);  // first return of one
     if (block.colour.empty()) return;

@@ -8,6 +8,7 @@
 #include "core/foundation/error.h"
 #include "io/bytes.h"
 #include "io/las.h"
+#include "io/las_description.h"
 #include "io/las_header.h"
 #include "io/laz.h"
 #include "io/laz_packing.h"
@@ -150,8 +151,9 @@ void stream_laz(const std::filesystem::path& path, const ReadOptions& options, S
   const LasHeader header = read_las_header(file, LasPoints::compressed);
   const LazPacking packing = read_laz_packing(file, header);
   const Attributes has = options.positions_only ? Attributes{} : las_attributes(header);
-  PointStream out({path.stem().string(), file.name(), has, std::nullopt, header.points, header.box}, options,
-                  NanMeans::invalid, sink);
+  PointStream out(
+      {path.stem().string(), file.name(), has, std::nullopt, header.points, header.box, las_unit(file, header)},
+      options, NanMeans::invalid, sink);
   if (!out.wanted()) return;
   const int shift = has.colour && colours_fill_16_bits(file, header, packing, progress) ? 8 : 0;
   Points points(file, header, packing, coordinates | (has.intensity ? intensities : 0) | (has.colour ? colours : 0));

@@ -40,13 +40,18 @@ std::string header_text(const Lines& lines, const Pose& pose) {
   return text;
 }
 
+/// One for all scans of the file, so that they stay comparable.
+IntensityRange ptx_intensity_range(const std::vector<ScanFacts>& scans) {
+  return intensity_range(all_intensities(scans), 1.0, false);
+}
+
 class PtxWriter : public ScanWriter {
  public:
-  PtxWriter(const std::filesystem::path& path, const std::vector<ScanFacts>& scans) : scans_(scans), file_(path) {}
+  PtxWriter(const std::filesystem::path& path, const std::vector<ScanFacts>& scans)
+      : scans_(scans), file_(path), range_(ptx_intensity_range(scans)) {}
 
   bool begin(const ScanHeader&) override {
     lines_ = lines_of(scan());
-    range_ = intensity_range(scan(), 1.0, false);
     written_ = 0;
     file_.append(header_text(lines_, scan().header.file_pose.value_or(Pose::Identity())));
     return true;
@@ -87,9 +92,9 @@ class PtxWriter : public ScanWriter {
 
   std::vector<ScanFacts> scans_;
   AtomicFile file_;
+  IntensityRange range_;
   std::size_t next_ = 0;
   Lines lines_;
-  IntensityRange range_;
   std::uint64_t written_ = 0;  ///< lines of the present scan
   TextLine line_;
 };

@@ -47,41 +47,36 @@ struct ScanFormat {
   Stream stream = nullptr;
   Summarise summarise = nullptr;
   MakeFormatWriter make_writer = nullptr;
-  PoseGoes pose_goes = PoseGoes::into_points;
-  bool holds_several_scans = false;
+  FormatHolds holds;
   std::vector<std::string> variants;
   bool built_in = true;  ///< false: every function refuses the file by name
 };
 
-constexpr auto into_points = PoseGoes::into_points;
-constexpr auto beside_points = PoseGoes::beside_points;
+constexpr double las_intensity = 65535.0;
 
 std::vector<ScanFormat> make_formats() {
+  using enum PoseGoes;
+  // pose, several scans, normals, raster, intensities up to
+  const FormatHolds ply{into_points, false, true, false, 0.0};
+  const FormatHolds pcd{beside_points, false, true, false, 0.0};
+  const FormatHolds e57{beside_points, true, true, true, 0.0};
+  const FormatHolds las{into_points, false, false, false, las_intensity};
+  const FormatHolds pts{into_points, false, false, false, 0.0};
+  const FormatHolds ptx{beside_points, true, false, true, 1.0};
+  const FormatHolds xyz{into_points, false, true, false, 0.0};
+  const std::vector<std::string> ply_variants = {"ascii", "little", "big"};
+  const std::vector<std::string> pcd_variants = {"ascii", "binary", "compressed"};
+  const std::vector<std::string> e57_variants = {"scaled", "double"};
   return {
-      {{".ply"}, is_ply, stream_ply, summarise_ply, make_ply_writer, into_points, false, {"ascii", "little", "big"}},
-      {{".pcd"},
-       is_pcd,
-       stream_pcd,
-       summarise_pcd,
-       make_pcd_writer,
-       beside_points,
-       false,
-       {"ascii", "binary", "compressed"}},
-      {{".e57"},
-       is_e57,
-       stream_e57,
-       summarise_e57,
-       make_e57_writer,
-       beside_points,
-       true,
-       {"scaled", "double"},
-       e57_is_built_in()},
+      {{".ply"}, is_ply, stream_ply, summarise_ply, make_ply_writer, ply, ply_variants},
+      {{".pcd"}, is_pcd, stream_pcd, summarise_pcd, make_pcd_writer, pcd, pcd_variants},
+      {{".e57"}, is_e57, stream_e57, summarise_e57, make_e57_writer, e57, e57_variants, e57_is_built_in()},
       // In front of LAS: is_las() knows no difference.
-      {{".laz"}, is_laz, stream_laz, summarise_laz, make_laz_writer, into_points, false, {}, laz_is_built_in()},
-      {{".las"}, is_las, stream_las, summarise_las, make_las_writer, into_points, false, {}},
-      {{".pts"}, nullptr, stream_pts, summarise_pts, make_pts_writer, into_points, false, {}},
-      {{".ptx"}, nullptr, stream_ptx, summarise_ptx, make_ptx_writer, beside_points, true, {}},
-      {{".xyz", ".csv", ".txt"}, nullptr, stream_xyz, summarise_xyz, make_xyz_writer, into_points, false, {}},
+      {{".laz"}, is_laz, stream_laz, summarise_laz, make_laz_writer, las, {}, laz_is_built_in()},
+      {{".las"}, is_las, stream_las, summarise_las, make_las_writer, las, {}},
+      {{".pts"}, nullptr, stream_pts, summarise_pts, make_pts_writer, pts, {}},
+      {{".ptx"}, nullptr, stream_ptx, summarise_ptx, make_ptx_writer, ptx, {}},
+      {{".xyz", ".csv", ".txt"}, nullptr, stream_xyz, summarise_xyz, make_xyz_writer, xyz, {}},
   };
 }
 
@@ -179,6 +174,10 @@ ScanFileSummary summarise_scan_file(const fs::path& file, Progress& progress) {
   return summary;
 }
 
+FormatHolds format_holds(const fs::path& file) {
+  return writable_format(file, {}).holds;
+}
+
 void expect_writable(const fs::path& file, const WriteOptions& options) {
   writable_format(file, options);
   const AtomicFile probe(file);
@@ -188,11 +187,11 @@ std::unique_ptr<ScanWriter> make_scan_writer(const fs::path& file, std::vector<S
                                              const WriteOptions& options) {
   const ScanFormat& format = writable_format(file, options);
   if (scans.empty()) throw Error("there is no scan to write", file.string(), "choose at least one scan");
-  if (scans.size() > 1 && !format.holds_several_scans)
+  if (scans.size() > 1 && !format.holds.several_scans)
     throw Error("the format holds one scan, not " + std::to_string(scans.size()), file.string(),
-                "write one of " + listed(endings_that([](const ScanFormat& f) { return f.holds_several_scans; })) +
-                    ", or one file a scan");
-  return checked_writer(file, std::move(scans), format.pose_goes, [&](const std::vector<ScanFacts>& written) {
+                "write one of " + listed(endings_that([](const ScanFormat& f) { return f.holds.several_scans; })) +
+                    ", or one scan each to a file of its own (--scan)");
+  return checked_writer(file, std::move(scans), format.holds.pose_goes, [&](const std::vector<ScanFacts>& written) {
     return format.make_writer(file, written, options);
   });
 }

@@ -86,6 +86,17 @@ std::vector<ScanData> read_scans(const std::filesystem::path& file, const ReadOp
 /// is larger than 8 MiB. PTX and PTS are read through for their line ends alone, which tell where the next scan begins.
 ScanFileSummary summarise_scan_file(const std::filesystem::path& file, Progress& progress);
 
+/// What the files of a format can hold.
+struct FormatHolds {
+  PoseGoes pose_goes = PoseGoes::into_points;
+  bool several_scans = false;
+  bool normals = false;
+  bool raster = false;
+  double most_intensity = 0.0;  ///< intensities are stretched to 0 .. this; 0: they stay as they are
+};
+/// By the ending of a file to be written.
+FormatHolds format_holds(const std::filesystem::path& file);
+
 /// How to write.
 struct WriteOptions {
   std::string variant;  ///< "" is the format's default; PLY: ascii, little, big; PCD: ascii, binary, compressed; E57:

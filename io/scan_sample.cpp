@@ -57,6 +57,15 @@ std::string_view whole_lines(std::string_view bytes, bool is_line_begin) {
   return bytes.substr(first, last + 1 - first);
 }
 
+/// True when a header's box holds the points, but for what rounding leaves.
+bool agrees(const BoundingBox& said, const BoundingBox& seen) {
+  constexpr double rounding_m = 0.001;
+  if (said.isEmpty() || seen.isEmpty()) return true;
+  const double size = std::max(said.sizes().maxCoeff(), 1.0);
+  return (said.min() - seen.min()).maxCoeff() < rounding_m * size &&
+         (seen.max() - said.max()).maxCoeff() < rounding_m * size;
+}
+
 }  // namespace
 
 bool is_read_whole(std::uint64_t file_bytes) {
@@ -154,6 +163,8 @@ void WholeScans::end(std::uint64_t no_returns) {
 
 void WholeScans::complete(ScanFileSummary& summary) const {
   for (std::size_t i = 0; i < std::min(scans_.size(), summary.scans.size()); ++i) {
+    BoundingBox& said = summary.scans[i].box;
+    if (!agrees(said, scans_[i].sample.box)) said = {};  // what all points say is shown instead
     take_sample(summary.scans[i], scans_[i].sample);
     if (summary.scans[i].box_from == "sample") summary.scans[i].box_from = "all points";
     if (scans_[i].no_returns > 0) summary.scans[i].no_returns = scans_[i].no_returns;

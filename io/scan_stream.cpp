@@ -1,5 +1,7 @@
 #include "io/scan_stream.h"
 
+#include "core/foundation/error.h"
+
 namespace adit::io {
 
 std::vector<std::string> attribute_names(const Attributes& attributes) {
@@ -13,6 +15,12 @@ std::vector<std::string> attribute_names(const Attributes& attributes) {
 
 std::string name_of_scan(const std::filesystem::path& file, int n) {
   return file.stem().string() + (n > 1 ? "-" + std::to_string(n) : "");
+}
+
+void expect_metres(const ScanHeader& scan) {
+  if (scan.unit.empty()) return;
+  throw Error("the file says that its coordinates are no metres (" + scan.unit + ")", scan.where,
+              "export it in a system with metres in plan and height");
 }
 
 void PointBlock::clear() {

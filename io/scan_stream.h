@@ -34,7 +34,11 @@ struct ScanHeader {
   std::optional<Pose> file_pose;
   std::uint64_t points = 0;  ///< as the header says, places without a return among them; 0: it does not say
   BoundingBox box;           ///< as the header says, file coordinates; empty: it does not say
+  std::string unit{};        ///< of the coordinates, where the file says that it is not the metre: "foot", "degree"
 };
+
+/// Error for coordinates that are no metres, as the file itself says.
+void expect_metres(const ScanHeader& scan);
 
 /// Name of the n-th scan (from 1) of a file whose scans have none: that of the file, then with -2, -3, ...
 std::string name_of_scan(const std::filesystem::path& file, int n);

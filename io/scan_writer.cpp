@@ -30,8 +30,9 @@ void FactsSink::take(PointBlock& block) {
   facts.points += block.size();
 }
 
-void FactsSink::end(std::uint64_t) {
+void FactsSink::end(std::uint64_t no_returns) {
   ScanFacts& facts = scans.back();
+  facts.no_returns = no_returns;
   if (!facts.header.file_pose) facts.site_box = facts.box;
 }
 

@@ -14,6 +14,7 @@ namespace adit::io {
 struct ScanFacts {
   ScanHeader header;
   std::uint64_t points = 0;             ///< exactly as many as will be handed out
+  std::uint64_t no_returns = 0;         ///< places where the scanner saw nothing
   BoundingBox box;                      ///< of the points, file coordinates
   BoundingBox site_box;                 ///< of the points moved by file_pose; as box where there is none
   bool coordinates_are_float32 = true;  ///< every coordinate is a float32 to the last bit
@@ -24,6 +25,9 @@ struct ScanFacts {
   std::uint32_t columns = 0;
   bool column_by_column = true;  ///< the points come in rising order of column and, within it, of row, no place twice
 };
+
+/// Whether file_pose is written beside the points, or applied to them (formats without a pose).
+enum class PoseGoes { beside_points, into_points };
 
 /// Gathers the facts of every scan handed to it.
 class FactsSink : public ScanSink {

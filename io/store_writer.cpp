@@ -77,6 +77,7 @@ bool StoreWriter::begin(const ScanHeader& scan) {
   scans_seen_.push_back(scan.name);
   const std::uint64_t number = scans_seen_.size();
   if (options_.scan == 0 ? number > 1 : number != options_.scan) return false;
+  expect_metres(scan);
   taken_ = true;
   where_ = scan.where;
   header_.file_pose = scan.file_pose;

@@ -1,5 +1,6 @@
 // adit convert IN OUT: between scan formats.
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "app/command_line/command.h"
 #include "core/foundation/error.h"
 #include "io/scan_formats.h"
+#include "io/scan_losses.h"
 #include "io/scan_offset.h"
 
 namespace adit::app {
@@ -27,7 +29,9 @@ class ChosenScan : public io::ScanSink {
   ChosenScan(io::ScanSink& to, std::size_t number) : to_(to), number_(number) {}
   bool begin(const io::ScanHeader& scan) override {
     ++seen_;
-    return (number_ == 0 || number_ == seen_) && to_.begin(scan);
+    if (number_ != 0 && number_ != seen_) return false;
+    io::expect_metres(scan);
+    return to_.begin(scan);
   }
   void take(io::PointBlock& block) override { to_.take(block); }
   void end(std::uint64_t no_returns) override { to_.end(no_returns); }
@@ -79,6 +83,19 @@ std::vector<io::ScanFacts> convert(const Arguments& arguments, Progress& progres
   return facts;
 }
 
+/// What the new file says less than the old one.
+std::vector<std::string> losses_of(const Arguments& arguments, const std::vector<io::ScanFacts>& scans,
+                                   Progress& progress) {
+  std::vector<std::string> losses = io::losses_of_writing(arguments.out, scans);
+  const io::ScanFileSummary source = io::summarise_scan_file(arguments.in, progress);
+  const bool has_system = std::any_of(source.header.begin(), source.header.end(), [](const io::HeaderFact& fact) {
+    return fact.name == "coordinate_system" || fact.name == "epsg";
+  });
+  if (has_system) losses.emplace_back("the name of the coordinate system is left out");
+  if (source.format.starts_with("LA")) losses.emplace_back("classes, numbers of returns and times are left out");
+  return losses;
+}
+
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const auto& word : words) text += (text.empty() ? "" : " ") + word;
@@ -103,15 +120,20 @@ Action declare_convert(CLI::App& command) {
   return [arguments](const CommonOptions& common, Progress& progress) {
     check_another_file(arguments->in, arguments->out);
     const std::vector<io::ScanFacts> scans = convert(*arguments, progress);
+    const std::vector<std::string> losses = losses_of(*arguments, scans, progress);
     std::uint64_t points = 0;
     for (const io::ScanFacts& scan : scans) points += scan.points;
     if (common.json)
-      std::printf("%s\n", nlohmann::ordered_json{{"file", arguments->out}, {"points", points}, {"scans", scans.size()}}
-                              .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
-                              .c_str());
+      std::printf("%s\n",
+                  nlohmann::ordered_json{
+                      {"file", arguments->out}, {"points", points}, {"scans", scans.size()}, {"changes", losses}}
+                      .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+                      .c_str());
     else if (!common.quiet)
       std::printf("%s: %llu points in %zu scan%s\n", arguments->out.c_str(), static_cast<unsigned long long>(points),
                   scans.size(), scans.size() == 1 ? "" : "s");
+    if (!common.json && !common.quiet)
+      for (const std::string& loss : losses) std::printf("  %s\n", loss.c_str());
     return exit_good;
   };
 }

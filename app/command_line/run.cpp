@@ -1,6 +1,7 @@
 // adit run, and one command for each step: all steps up to it.
 
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "app/command_line/command.h"
@@ -10,6 +11,18 @@
 #include "render/gl_context.h"
 
 namespace adit::app {
+
+namespace {
+
+const CLI::Validator enough_memory(
+    [](const std::string& bytes) {
+      const double least = 268435456.0, most = 1e15;
+      const double value = std::strtod(bytes.c_str(), nullptr);
+      return value >= least && value <= most ? std::string() : std::string("give 256MiB or more, as 8GB");
+    },
+    "SIZE");
+
+}  // namespace
 
 Action declare_run(CLI::App& command, const std::string& last_step) {
   struct Arguments {
@@ -21,9 +34,10 @@ Action declare_run(CLI::App& command, const std::string& last_step) {
   command.add_option("JOB", arguments->job, "job.json or its folder")->required()->check(some_name);
   command.add_option("--out", arguments->out, "folder for everything derived (out beside job.json)")->check(some_name);
   command
-      .add_option("--memory", arguments->memory_bytes, "budget for points on their way, as 8GB (half of the machine's)")
+      .add_option("--memory", arguments->memory_bytes,
+                  "budget for points on their way, as 8GB; 256MiB at least (half of the machine's)")
       ->transform(CLI::AsSizeValue(true))
-      ->check(CLI::Range(std::uint64_t{1} << 28, std::uint64_t{1} << 50));
+      ->check(enough_memory);
   return [arguments, last_step](const CommonOptions& common, Progress& progress) {
     RunOptions options;
     options.out = arguments->out;

@@ -31,10 +31,13 @@ void add_registration(std::string& text, const Results& results) {
     add(text, "  %-12s %-20s %14.3f %14.3f %10.3f   %.1f / %.1f / %.1f mm\n", scan.name.c_str(), scan.placed_by.c_str(),
         p.x(), p.y(), p.z(), 1e3 * scan.sigma.along_m, 1e3 * scan.sigma.across_m, 1e3 * scan.sigma.up_m);
   }
-  for (const PairResult& pair : registration.pairs)
-    add(text, "  pair %s - %s: overlap %.0f %%, median residual %.1f mm, median distance %.1f mm%s\n",
-        pair.source.c_str(), pair.target.c_str(), 100.0 * pair.overlap, 1e3 * pair.median_m,
-        1e3 * pair.median_distance_m, pair.used ? "" : " (not used)");
+  for (const PairResult& pair : registration.pairs) {
+    add(text, "  pair %s - %s: overlap %.0f %%", pair.source.c_str(), pair.target.c_str(), 100.0 * pair.overlap);
+    if (std::isfinite(pair.median_m) && std::isfinite(pair.median_distance_m))
+      add(text, ", median residual %.1f mm, median distance %.1f mm", 1e3 * pair.median_m,
+          1e3 * pair.median_distance_m);
+    text += pair.used ? "\n" : " (not used)\n";
+  }
   if (!registration.control.empty())
     add(text, "  control: %zu targets, rms %.1f mm per axis\n", registration.control.size(),
         1e3 * registration.control_rms_m);
@@ -88,9 +91,8 @@ std::string summary_text(const JobState& state) {
     const char* sign = finding.severity == Severity::decision  ? "TO DECIDE"
                        : finding.severity == Severity::warning ? "warning"
                                                                : "note";
-    if (finding.severity != Severity::note)
-      text += "\n" + std::string(sign) + ": " + finding.subject + ": " + finding.words +
-              (finding.mend.empty() ? "" : "; " + finding.mend);
+    text += "\n" + std::string(sign) + ": " + finding.subject + ": " + finding.words +
+            (finding.mend.empty() ? "" : "; " + finding.mend);
   }
   text += "\n";
   for (const StepTime& time : results.timing)

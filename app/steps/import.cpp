@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cstdio>
 #include <exception>
+#include <optional>
 
 #include "app/step.h"
 #include "core/foundation/error.h"
@@ -174,6 +175,23 @@ std::uint64_t points_of(const JobState& state, const std::string& file) {
   return points;
 }
 
+/// An earlier scan of the job with the same points.
+std::optional<std::size_t> earlier_twin(const JobState& state, std::size_t i) {
+  const auto number = [&](std::size_t scan) { return std::max(1, state.job.scans[scan].number); };
+  for (std::size_t k = 0; k < i; ++k)
+    if (state.stores[i]->source_sha256() == state.stores[k]->source_sha256() && number(i) == number(k)) return k;
+  return std::nullopt;
+}
+
+Finding twin_finding(const JobState& state, std::size_t i, std::size_t twin) {
+  const std::string other = "scan " + state.stores[twin]->name();
+  if (state.job.scans[i].file == state.job.scans[twin].file)
+    return {Severity::decision, "scan " + state.stores[i]->name(), "it is the same scan of the same file as " + other,
+            "correct its \"scan\" or \"file\" in the job"};
+  return {Severity::decision, "scan " + state.stores[i]->name(), "its file has the same content as that of " + other,
+          "name the file of the other station"};
+}
+
 void summarise(JobState& state) {
   ImportResult result;
   result.origin = origin_of(state);
@@ -188,12 +206,7 @@ void summarise(JobState& state) {
                                  "the file does not say where the scanner stood; ranges are not limited", ""});
   }
   for (std::size_t i = 0; i < state.stores.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (state.stores[i]->source_sha256() == state.stores[k]->source_sha256() &&
-          std::max(1, state.job.scans[i].number) == std::max(1, state.job.scans[k].number))
-        result.findings.push_back({Severity::decision, "scan " + state.stores[i]->name(),
-                                   "its file has the same content as that of scan " + state.stores[k]->name(),
-                                   "name the file of the other station"});
+    if (const auto twin = earlier_twin(state, i)) result.findings.push_back(twin_finding(state, i, *twin));
   result.findings.insert(result.findings.end(), state.input_findings.begin(), state.input_findings.end());
   state.results.import = std::move(result);
 }

@@ -93,12 +93,28 @@ void check_targets_in_scans(const JobState& state) {
   }
 }
 
+/// Two files can hold one scan in two formats: no two scans of a rock meet within a tenth of a millimetre.
+Findings scans_with_the_same_points(const RegistrationResult& registration) {
+  constexpr double too_good_m = 1e-4;
+  Findings findings;
+  for (const PairResult& pair : registration.pairs)
+    if (pair.overlap > 0.9 && pair.median_m < too_good_m && pair.median_distance_m < too_good_m)
+      findings.push_back({Severity::decision, "pair " + pair.source + " - " + pair.target,
+                          "both hold the same points: one scan stands twice in the job",
+                          "name the file of the other station"});
+  return findings;
+}
+
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   check_targets_in_scans(state);
   std::vector<ScanToPlace> scans;
   for (std::size_t i = 0; i < state.stores.size(); ++i) scans.push_back(scan_to_place(state, i));
   state.results.registration = register_scans(scans, context_of(state), state.job.options.registration, progress);
   for (Finding& finding : scans_beside_axis(state)) {
+    state.results.registration.findings.push_back(std::move(finding));
+    state.results.registration.accepted = false;
+  }
+  for (Finding& finding : scans_with_the_same_points(state.results.registration)) {
     state.results.registration.findings.push_back(std::move(finding));
     state.results.registration.accepted = false;
   }

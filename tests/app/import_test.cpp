@@ -100,7 +100,12 @@ TEST_F(ImportOfAJob, TheSameScanUnderTwoNamesIsSaid) {
   write_job(R"({"name": "A", "file": "a.ply"}, {"name": "B", "file": "a.ply", "scan": 1})");
   const Findings findings = import()->results.import.findings;
   ASSERT_EQ(findings.size(), 1U);
-  EXPECT_THAT(findings[0].words, HasSubstr("the same content as that of scan A"));
+  EXPECT_THAT(findings[0].words, HasSubstr("the same scan of the same file as scan A"));
+  fs::copy_file(folder_ / "a.ply", folder_ / "c.ply");
+  write_job(R"({"name": "A", "file": "a.ply"}, {"name": "B", "file": "c.ply"}, {"name": "C", "file": "c.ply"})");
+  const Findings copies = import()->results.import.findings;
+  ASSERT_EQ(copies.size(), 2U);
+  EXPECT_THAT(copies[0].words, HasSubstr("the same content as that of scan A"));
 }
 
 TEST_F(ImportOfAJob, TheFirstBadScanOfTheJobIsTheOneReported) {

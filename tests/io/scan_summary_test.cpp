@@ -230,6 +230,17 @@ TEST(ScanSummary, LasHeaderSaysWhoWhenAndWhere) {
   EXPECT_EQ(fact(tests::summary(folder.write("c.las", bytes)), "epsg"), "(none)");
 }
 
+TEST(ScanSummary, AHeaderThatBeliesItsPointsIsNotBelieved) {
+  const tests::TemporaryFolder folder;
+  tests::write_one(folder / "a.las", sphere(1000));
+  std::string bytes = tests::bytes_of(folder / "a.las");
+  const double least_x = -1.0;
+  std::memcpy(bytes.data() + 187, &least_x, 8);
+  const ScanSummary summary = tests::summary(folder.write("b.las", bytes)).scans.at(0);
+  EXPECT_EQ(summary.box_from, "all points");
+  EXPECT_NEAR(summary.box.min().x(), -5.0, 0.1);
+}
+
 TEST(ScanSummary, PlyCommentsAreKept) {
   const tests::TemporaryFolder folder;
   const auto file = folder.write("a.ply",

@@ -1,6 +1,9 @@
 #include "io/scan_writer.h"
 
+#include <algorithm>
+
 #include "tests/io/scan_samples.h"
+#include "tests/io/scan_streams.h"
 
 namespace adit::io {
 namespace {
@@ -149,6 +152,35 @@ std::string refusal_of(const std::string& file, const std::vector<ScanFacts>& fa
     return error.what();
   }
   return "(made)";
+}
+
+TEST(ScanWriter, TheBoxOfAHeaderHoldsThePointsAsTheyAreStored) {
+  const tests::TemporaryFolder folder;
+  ScanData scan;
+  scan.cloud.points = {{-0.094689F, 1.00004F, 7.0F}, {0.2F, -3.00007F, 4918.12375F}};
+  for (const std::string ending : {".las", ".laz", ".e57"}) {
+    const auto endings = writable_endings();
+    if (std::find(endings.begin(), endings.end(), ending) == endings.end()) continue;
+    tests::write_one(folder / ("a" + ending), scan);
+    const tests::StreamedScan read = tests::stream_all(folder / ("a" + ending)).at(0);
+    BoundingBox box;
+    for (const auto& p : read.points.positions) box.extend(p);
+    EXPECT_LT((box.min() - read.header.box.min()).cwiseAbs().maxCoeff(), 1e-9) << ending;
+    EXPECT_LT((box.max() - read.header.box.max()).cwiseAbs().maxCoeff(), 1e-9) << ending;
+  }
+}
+
+TEST(ScanWriter, ScansOfAPtxShareTheScaleOfTheirIntensities) {
+  const tests::TemporaryFolder folder;
+  ScanData dark, bright;
+  dark.cloud.points = bright.cloud.points = {{1, 2, 3}, {4, 5, 6}};
+  dark.cloud.intensity = {0.0F, 1.0F};
+  bright.cloud.intensity = {0.0F, 200.0F};
+  Progress progress;
+  write_scans(folder / "a.ptx", {dark, bright}, {}, progress);
+  const auto scans = tests::stream_all(folder / "a.ptx");
+  EXPECT_FLOAT_EQ(scans.at(0).points.intensity[1], 0.005F);
+  EXPECT_FLOAT_EQ(scans.at(1).points.intensity[1], 1.0F);
 }
 
 TEST(ScanWriter, RefusesWhatAFormatCannotHold) {
