@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/job_checks.h"
+#include "core/foundation/error.h"
 #include "core/foundation/parallel.h"
 #include "io/control_csv.h"
 #include "io/job_json.h"
@@ -26,6 +27,26 @@ std::vector<std::string> files_of(const Job& job) {
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
+}
+
+/// No run may write over what it reads, wherever its folder is and whatever a link in it stands for.
+void expect_inputs_apart(const JobState& state, const std::vector<std::string>& files) {
+  std::error_code ignored;
+  const auto real = [&](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path, ignored), ignored); };
+  std::vector<fs::path> inputs = {real(state.file)};
+  for (const std::string& name : files) inputs.push_back(real(state.folder / name));
+  for (const fs::path& input : inputs) {
+    const auto refuse = [&] {
+      throw Error("a run would write over this input", input.string(), "move it, or choose another folder with --out");
+    };
+    for (const char* name :
+         {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "results.json", "report.pdf", ".lock"})
+      if (real(state.out / name) == input) refuse();
+    for (const char* name : {"import", "steps", "report"}) {
+      const fs::path below = input.lexically_relative(real(state.out / name));
+      if (!below.empty() && *below.begin() != "..") refuse();
+    }
+  }
 }
 
 void read_alignment(JobState& state) {
@@ -65,6 +86,8 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
     state.input_sha256["truth.json"] = io::sha256_of_file(truth, progress);
   }
   const std::vector<std::string> files = files_of(state.job);
+  expect_inputs_apart(state, files);
+  for (const std::string& name : files) state.input_stamp[name] = io::stamp_of(state.folder / name);
   std::vector<std::string> hashes(files.size());
   parallel_for_each_index(
       files.size(), [&](std::size_t i) { hashes[i] = io::sha256_of_file(state.folder / files[i], progress); }, 1);

@@ -15,6 +15,7 @@
 #include "core/job/results.h"
 #include "core/profiling/deviation_map.h"
 #include "core/simulation/truth.h"
+#include "io/file_stamp.h"
 #include "io/mesh_ply.h"
 #include "io/point_store.h"
 
@@ -29,7 +30,8 @@ struct JobState {
   std::uint64_t memory_bytes = std::uint64_t{4} << 30;  ///< budget for points on their way
 
   // What the input files say (site coordinates).
-  std::map<std::string, std::string> input_sha256;  ///< by the name in job.json
+  std::map<std::string, std::string> input_sha256;   ///< by the name in job.json
+  std::map<std::string, io::FileStamp> input_stamp;  ///< of the same files when they were hashed
   std::optional<Alignment> alignment;
   std::vector<ProfileFrom> profiles;
   std::vector<ControlPoint> control;

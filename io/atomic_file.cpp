@@ -74,6 +74,8 @@ AtomicPath::AtomicPath(fs::path target) : target_(followed(target)) {
   std::error_code ignored;
   if (target_.filename().empty() || fs::is_directory(target_, ignored))
     throw Error("this is a folder, not a file", target_.string(), "name a file inside it");
+  if (fs::exists(target_, ignored) && !fs::is_regular_file(target_, ignored))
+    throw Error("this is a pipe or a device, not a file", target_.string(), "name a file");
   if (!fs::is_directory(folder_of(target_), ignored))
     throw Error("there is no folder " + folder_of(target_).string(), target_.string(), "make the folder first");
   int descriptor = -1;

@@ -169,6 +169,17 @@ bool is_number(const StructureNode& record, const char* name) {
   return type == e57::E57_INTEGER || type == e57::E57_SCALED_INTEGER || type == e57::E57_FLOAT;
 }
 
+/// A scale of zero puts all points onto one.
+void expect_scales(const StructureNode& record, const std::string& where) {
+  for (std::int64_t i = 0; i < record.childCount(); ++i) {
+    const e57::Node field = record.get(i);
+    if (field.type() != e57::E57_SCALED_INTEGER) continue;
+    const double scale = e57::ScaledIntegerNode(field).scale();
+    if (!(std::abs(scale) > 0.0) || !std::isfinite(scale))
+      throw Error("the scale of " + field.elementName() + " is zero or no number", where, export_again);
+  }
+}
+
 E57Scan scan_of(const StructureNode& node, const fs::path& path, int n) {
   std::string name = text(node, "name");
   const std::string where = path.string() + ": scan " + std::to_string(n) + (name.empty() ? "" : " (" + name + ")");
@@ -179,6 +190,7 @@ E57Scan scan_of(const StructureNode& node, const fs::path& path, int n) {
   if (scan.records.prototype().type() != e57::E57_STRUCTURE)
     throw Error("the points are no records", where, export_again);
   const StructureNode record(scan.records.prototype());
+  expect_scales(record, where);
   for (std::size_t i = 0; i < e57_fields; ++i) scan.has[i] = is_number(record, e57_field_names[i]);
   const auto all_of = [&](E57Field a, E57Field b, E57Field c) { return scan.has[a] && scan.has[b] && scan.has[c]; };
   scan.spherical = !all_of(e57_x, e57_y, e57_z);

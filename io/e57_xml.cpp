@@ -13,6 +13,7 @@ constexpr std::uint64_t header_bytes = 48;
 constexpr std::uint64_t page_bytes = 1024;
 constexpr std::uint64_t page_content_bytes = 1020;  // the rest is the page's checksum
 constexpr int deepest = 64;
+constexpr std::uint64_t most_xml_bytes = std::uint64_t{64} << 20;  // of some thousand scans and images it is one MB
 constexpr const char* damaged = "the file is damaged; copy or export it again";
 
 /// The XML without the checksums of its pages. Its length is compared with the file's before memory is taken.
@@ -36,6 +37,7 @@ std::string read_xml(const InputFile& file) {
     fail(24, "the XML part cannot stand at byte " + std::to_string(begin), damaged);
   if (length == 0 || length > file.size() - begin)
     fail(32, "the XML part cannot have " + std::to_string(length) + " bytes", damaged);
+  if (length > most_xml_bytes) fail(32, "the XML part of " + std::to_string(length) + " bytes is too long", damaged);
   std::string xml;
   xml.reserve(length);
   for (std::uint64_t at = begin; xml.size() < length;) {
@@ -53,20 +55,46 @@ bool has(std::string_view xml, std::string_view word) {
   return xml.find(word) != std::string_view::npos;
 }
 
+/// The bracket that ends a tag; brackets in quotes are none.
+std::size_t end_of_tag(std::string_view xml, std::size_t at) {
+  char quote = 0;
+  for (; at < xml.size(); ++at) {
+    const char c = xml[at];
+    if (quote != 0) {
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '>') {
+      return at;
+    }
+  }
+  return std::string_view::npos;
+}
+
+/// The last bracket of what begins at `at`: a tag, a comment, CDATA or an instruction.
+std::size_t end_of_markup(std::string_view xml, std::size_t at) {
+  const std::string_view rest = xml.substr(at);
+  const auto behind = [&](std::string_view end) {
+    const std::size_t found = xml.find(end, at);
+    return found == std::string_view::npos ? found : found + end.size() - 1;
+  };
+  if (rest.starts_with("<![CDATA[")) return behind("]]>");
+  if (rest.starts_with("<!--")) return behind("-->");
+  if (rest.starts_with("<?")) return behind("?>");
+  return end_of_tag(xml, at);
+}
+
 /// Greatest number of elements around one another, told from the brackets alone.
 int depth_of(std::string_view xml) {
   int depth = 0;
   int greatest = 0;
   for (std::size_t at = xml.find('<'); at != std::string_view::npos && at + 1 < xml.size(); at = xml.find('<', at)) {
-    const bool passed_over = xml[at + 1] == '?' || xml[at + 1] == '!';
-    const std::string_view end = xml.substr(at).starts_with("<![CDATA[") ? "]]>"
-                                 : xml.substr(at).starts_with("<!--")    ? "-->"
-                                                                         : ">";
-    const std::size_t close = xml.find(end, at);
+    const std::size_t close = end_of_markup(xml, at);
     if (close == std::string_view::npos) break;
-    if (!passed_over && xml[at + 1] == '/') {
+    const char kind = xml[at + 1];
+    if (kind == '/') {
       --depth;
-    } else if (!passed_over && xml[close - 1] != '/') {
+    } else if (kind != '?' && kind != '!' && xml[close - 1] != '/') {
       greatest = std::max(greatest, ++depth);
     }
     at = close;

@@ -35,6 +35,7 @@ JobScan read_scan(const JsonPlace& place, const fs::path& folder) {
   JobScan scan;
   scan.name = place.at("name").text();
   if (scan.name.empty()) place.at("name").refuse("a scan needs a name", "write one, for instance S1");
+  if (scan.name.size() > 200) place.at("name").refuse("the name is longer than 200 letters", "write a shorter one");
   scan.file = existing_file(place.at("file"), folder);
   if (place.has("scan")) {
     const std::int64_t number = place.at("scan").whole_number();

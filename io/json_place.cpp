@@ -53,6 +53,26 @@ void expect_json_text(const std::string& text, const std::string& file) {
               at == std::string::npos ? file : file + ":" + line_and_column(text, at + 1), "check its unit");
 }
 
+/// The parser goes as deep as the text does, and the stack ends.
+void expect_flat(const std::string& text, const std::string& file) {
+  constexpr int deepest = 64;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      i += c == '\\' ? 1 : 0;
+      in_string = c != '"';
+      continue;
+    }
+    in_string = c == '"';
+    depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+    if (depth > deepest)
+      throw Error("brackets inside one another, more than 64 deep", file + ":" + line_and_column(text, i + 1),
+                  "this is not a file Adit reads");
+  }
+}
+
 /// Refuses an object with the same key twice: which one counts would be a guess.
 struct DoubleKeys {
   std::vector<std::set<std::string>> open;
@@ -79,6 +99,7 @@ nlohmann::json parse_json_file(const std::filesystem::path& file) {
   if (!stream) throw Error("the file cannot be opened", file.string(), "check its permissions");
   const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   expect_json_text(text, file.string());
+  expect_flat(text, file.string());
   DoubleKeys keys;
   nlohmann::json json;
   try {

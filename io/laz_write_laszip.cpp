@@ -3,11 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <ostream>
 #include <string>
 
 #include "core/foundation/error.h"
 #include "io/atomic_file.h"
 #include "io/bytes.h"
+#include "io/deferred_output.h"
 #include "io/intensity_range.h"
 #include "io/las_grid.h"
 #include "io/las_header.h"
@@ -44,11 +46,12 @@ class LazWriter : public ScanWriter {
         facts_(facts),
         grid_(las_grid(facts.box)),
         intensity_(intensity_range(facts, 65535.0, true)),
-        name_(path_.temporary().string()) {
+        output_(path_.temporary()),
+        stream_(&output_) {
     if (laszip_create(&writer_) != 0) throw Error("LASzip cannot begin", file.string(), "free some memory");
     const laszip_header header = header_of(facts, grid_);
     if (laszip_set_header(writer_, &header) != 0 || laszip_preserve_generating_software(writer_, 1) != 0 ||
-        laszip_request_native_extension(writer_, 1) != 0 || laszip_open_writer(writer_, name_.c_str(), 1) != 0 ||
+        laszip_request_native_extension(writer_, 1) != 0 || laszip_open_writer_stream(writer_, stream_, 1, 0) != 0 ||
         laszip_get_point_pointer(writer_, &point_) != 0) {
       const std::string words = said();
       laszip_destroy(writer_);
@@ -69,20 +72,21 @@ class LazWriter : public ScanWriter {
     const Attributes& has = facts_.header.attributes;
     const std::array<laszip_I32*, 3> steps{&point_->X, &point_->Y, &point_->Z};
     for (std::size_t i = 0; i < block.size(); ++i) {
-      const Eigen::Vector3d at = (block.positions[i] - grid_.offset) / grid_.scale_m;
-      for (std::size_t k = 0; k < 3; ++k)
-        *steps[k] = static_cast<laszip_I32>(std::lround(at[static_cast<Eigen::Index>(k)]));
+      const auto at = grid_.steps(block.positions[i]);
+      for (std::size_t k = 0; k < 3; ++k) *steps[k] = at[k];
       if (has.intensity) point_->intensity = static_cast<laszip_U16>(std::lround(intensity_(block.intensity[i])));
       for (std::size_t c = 0; has.colour && c < 3; ++c)
         point_->rgb[c] = static_cast<laszip_U16>(block.colour[i][c] * 257U);
       if (laszip_write_point(writer_) != 0 || laszip_update_inventory(writer_) != 0) fail();
     }
+    if (output_.error() != 0) path_.fail("the file cannot be written", output_.error());
   }
 
   void end(std::uint64_t) override {}
 
   void commit() override {
     if (laszip_close_writer(writer_) != 0) fail();
+    if (const int error = output_.flushed_error(); error != 0) path_.fail("the file cannot be written", error);
     expect_whole();
     path_.commit();
   }
@@ -97,7 +101,7 @@ class LazWriter : public ScanWriter {
     throw Error("the file cannot be written (LASzip: " + said() + ")", path_.target().string(),
                 "free some space or write to another disk");
   }
-  /// LASzip does not ask whether its bytes reached the disk; the chunks of a file that lacks some do not add up.
+  /// As far as the chunks of points tell.
   void expect_whole() const {
     try {
       const InputFile file(path_.temporary());
@@ -115,7 +119,8 @@ class LazWriter : public ScanWriter {
   ScanFacts facts_;
   LasGrid grid_;
   IntensityRange intensity_;
-  std::string name_;
+  DeferredOutput output_;  ///< LASzip crashes where its bytes find no room
+  std::ostream stream_;
   laszip_POINTER writer_ = nullptr;
   laszip_point* point_ = nullptr;
 };

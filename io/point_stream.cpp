@@ -8,7 +8,12 @@
 namespace adit::io {
 
 PointStream::PointStream(ScanHeader header, const ReadOptions& options, NanMeans nan_means, ScanSink& sink)
-    : header_(std::move(header)), options_(options), nan_means_(nan_means), sink_(sink), wanted_(sink.begin(header_)) {}
+    : header_(std::move(header)), options_(options), nan_means_(nan_means), sink_(sink) {
+  constexpr double beyond_any_site_m = 1e8;  // as for poses in job.json
+  if (header_.file_pose && !(header_.file_pose->translation().cwiseAbs().maxCoeff() <= beyond_any_site_m))
+    throw Error("the file's pose puts the scanner beyond 100,000 km", header_.where, "export the scan again in metres");
+  wanted_ = sink.begin(header_);
+}
 
 bool PointStream::is_left_out(const Eigen::Vector3d& position) {
   const auto nan = position.array().isNaN();

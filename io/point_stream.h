@@ -70,7 +70,7 @@ class PointStream {
   ReadOptions options_;
   NanMeans nan_means_;
   ScanSink& sink_;
-  bool wanted_;
+  bool wanted_ = false;
   PointBlock block_;
   bool has_points_ = false;
   std::uint64_t no_returns_ = 0;

@@ -121,6 +121,7 @@ bool LineReader::next() {
     searched = buffer_.size() - next_;
     if (searched > longest_line_bytes) {
       ++line_number_;
+      expect_no_carriage_return(std::string_view(buffer_).substr(next_));
       fail("the line is longer than 1 MiB", "is this a text file?");
     }
     if (!fill()) break;
@@ -130,12 +131,18 @@ bool LineReader::next() {
   return true;
 }
 
+void LineReader::expect_no_carriage_return(std::string_view line) const {
+  if (line.find('\r') != std::string_view::npos)
+    fail("a carriage return inside the line", "save the file with line feeds at its line ends");
+}
+
 void LineReader::take_line(std::size_t length, std::size_t with_end) {
   line_ = std::string_view(buffer_).substr(next_, length);
-  if (line_.ends_with('\r')) line_.remove_suffix(1);
+  while (line_.ends_with('\r')) line_.remove_suffix(1);
   next_ += with_end;
   if (line_number_ == std::numeric_limits<int>::max()) fail("the file has too many lines", "split it");
   ++line_number_;
+  expect_no_carriage_return(line_);
 }
 
 bool LineReader::next_with_text() {

@@ -83,6 +83,7 @@ class LineReader {
 
  private:
   bool fill();
+  void expect_no_carriage_return(std::string_view line) const;
   void take_line(std::size_t length, std::size_t with_end);
   [[noreturn]] void not_a_number(const Field& field, std::string_view unit) const;
 

@@ -9,6 +9,7 @@
 
 #include "app/command_line/command.h"
 #include "core/foundation/error.h"
+#include "io/atomic_file.h"
 #include "io/scan_formats.h"
 #include "io/scan_losses.h"
 #include "io/scan_offset.h"
@@ -119,6 +120,7 @@ Action declare_convert(CLI::App& command) {
   command.add_flag("--drop-invalid", arguments->read.drop_invalid, "leave out points that are not finite");
   return [arguments](const CommonOptions& common, Progress& progress) {
     check_another_file(arguments->in, arguments->out);
+    io::remove_leftovers(std::filesystem::absolute(arguments->out).parent_path());
     const std::vector<io::ScanFacts> scans = convert(*arguments, progress);
     const std::vector<std::string> losses = losses_of(*arguments, scans, progress);
     std::uint64_t points = 0;

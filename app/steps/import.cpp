@@ -102,6 +102,8 @@ void make_store(const JobState& state, const JobScan& scan, const std::filesyste
     throw Error("there is no scan " + std::to_string(scan.number) + "; the file holds " +
                     std::to_string(writer.scans_seen().size()),
                 file.string(), "correct \"scan\" in the job");
+  if (io::stamp_of(file) != state.input_stamp.at(scan.file))
+    throw Error("the file changed while it was being read", file.string(), "wait until it is whole, then run again");
   Progress writing = progress.part(0.4, "storing " + scan.name);
   writer.commit(writing);
 }

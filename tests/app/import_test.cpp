@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <fstream>
+
 #include "app/run_job.h"
 #include "core/foundation/error.h"
 #include "core/foundation/random.h"
@@ -93,6 +96,40 @@ TEST_F(ImportOfAJob, AWrongUnitIsRefusedEveryTime) {
   write_job(R"({"name": "A", "file": "a.ply"})");
   EXPECT_THAT(words_of_import(), HasSubstr("seems to be in millimetres"));
   EXPECT_THAT(words_of_import(), HasSubstr("seems to be in millimetres"));
+}
+
+/// Writes into a file as soon as it is being read.
+class ChangesAFile : public ProgressSink {
+ public:
+  explicit ChangesAFile(fs::path file) : file_(std::move(file)) {}
+  void report(double, const std::string& message) override {
+    if (message.find("reading " + file_.filename().string()) == std::string::npos || done.exchange(true)) return;
+    std::fstream file(file_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(2'000'000);
+    file.put('x');
+  }
+  std::atomic<bool> done{false};
+
+ private:
+  fs::path file_;
+};
+
+TEST_F(ImportOfAJob, AFileThatChangesWhileItIsReadIsRefused) {
+  write_scans("a.ply", {scan_of(300'000, 10.0)});
+  write_job(R"({"name": "A", "file": "a.ply"})");
+  ChangesAFile changes(folder_ / "a.ply");
+  ProgressTarget target(&changes);
+  Progress progress(target);
+  app::RunOptions options;
+  options.last_step = "import";
+  try {
+    app::run_job(folder_.path(), options, progress);
+    FAIL() << "imported";
+  } catch (const Error& error) {
+    EXPECT_TRUE(changes.done);
+    EXPECT_THAT(error.what(), HasSubstr("the file changed while it was being read"));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "import" / "1-A.points"));
 }
 
 TEST_F(ImportOfAJob, TheSameScanUnderTwoNamesIsSaid) {

@@ -4,6 +4,7 @@ Small broken files lie in the case's folder as they are; here are those that wou
 repository keeps (links, permissions).
 """
 import functools
+import json
 import math
 import os
 import struct
@@ -143,6 +144,26 @@ def without_writing(path):
     path.chmod(0o555)
 
 
+def closed_brackets(path, count):
+    path.write_text('{"adit": 1, "scans": %s%s}' % ("[" * int(count), "]" * int(count)))
+
+
+def long_scan_name(path):
+    content = json.loads(path.read_text())
+    content["scans"][0]["name"] = "S" * 5000
+    path.write_text(json.dumps(content))
+
+
+def carriage_returns(path):
+    path.write_bytes(path.read_bytes().replace(b"\n", b"\r"))
+
+
+def pcd_from_afar(path):
+    points = "".join("%d %d %d\n" % (i % 7, i % 5, i % 3) for i in range(60))
+    path.write_text("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 1\nVIEWPOINT 1e20 0 0 1 0 0 0\n"
+                    "POINTS 60\nDATA ascii\n" + points)
+
+
 def nested_brackets(path, count):
     path.write_text('{"adit": 1, "scans": ' + "[" * int(count))
 
@@ -153,4 +174,5 @@ def nested_elements(path, count):
 
 KINDS = {f.__name__: f for f in (tunnel, first_points, with_decimal_commas, copied_points, ply, ply_of_nan, pcd, las, laz, folder, link, pipe,
                                  nothing, hexadecimal, bytes_in_front, windows_lines, moved, removed, unreadable, without_writing,
-                                 nested_brackets, nested_elements)}
+                                 nested_brackets, nested_elements, closed_brackets, long_scan_name, carriage_returns,
+                                 pcd_from_afar)}

@@ -99,6 +99,21 @@ def limited_files(program, plain, folder, tally):
         tally.check("files of at most %d kB" % kilobytes, faults_of(done, out))
 
 
+def limited_converts(program, plain, folder, tally):
+    """A disk that ends anywhere in the file, in its last bytes, too."""
+    for ending in ("ply", "pcd", "las", "laz", "e57", "ptx"):
+        whole = folder / ("whole." + ending)
+        if small_job.adit(program, "convert", plain / "scans/S1.ply", whole, "--quiet").returncode != 0:
+            continue  # a format that this build lacks
+        size = whole.stat().st_size
+        for limit in (0, 100, 380, size // 2, size - 4096, size - 300, size - 100, size - 20, size - 8, size - 1):
+            place = folder / "limited"
+            place.mkdir(exist_ok=True)
+            done = small_job.adit(program, "convert", plain / "scans/S1.ply", place / ("S1." + ending), "--quiet",
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+            tally.check("convert to %s, %d bytes of %d" % (ending, limit, size), faults_of(done, place))
+
+
 def full_output(program, plain, tally):
     if not os.path.exists("/dev/full"):
         return
@@ -116,6 +131,7 @@ def main():
         small_job.make_demo(program, plain)
         full_output(program, plain, tally)
         limited_files(program, plain, folder, tally)
+        limited_converts(program, plain, folder, tally)
         if may_mount(folder):
             small_disks(program, plain, folder, tally)
             filled_up_later(program, plain, folder, tally)

@@ -97,6 +97,14 @@ TEST_F(BrokenE57, XmlThatReachesOutOrGrows) {
   std::string deep;
   for (int i = 0; i < 300'000; ++i) deep += "<a type=\"Structure\">";
   EXPECT_THAT(refused(with_words(bytes_, "<data3D", deep + "<data3D")), HasSubstr("nested more than 64 deep"));
+  std::string bracket_in_quotes, ends_in_an_instruction = "<?p >";
+  for (int i = 0; i < 100; ++i) bracket_in_quotes += "<q type=\"Structure\" z=\"/>\">";
+  for (int i = 0; i < 100; ++i) ends_in_an_instruction += "</a>";
+  EXPECT_THAT(refused(with_words(bytes_, "<data3D", bracket_in_quotes + "<data3D")), HasSubstr("nested more than"));
+  EXPECT_THAT(refused(with_words(bytes_, "<data3D", ends_in_an_instruction + "?>" + deep + "<data3D")),
+              HasSubstr("nested more than"));
+  EXPECT_THAT(refused(with_words(bytes_, "scale=\"", "scale=\"0\" s=\"")),
+              HasSubstr("cartesianX is zero or no number"));
   EXPECT_THAT(refused(tests::with_xml(bytes_, "no XML at all")), HasSubstr("does not begin as XML"));
   EXPECT_NE(refused(tests::with_xml(bytes_, "<?xml version=\"1.0\"?>\n<e57Root type=\"Structure\">")), "(read)");
 }
