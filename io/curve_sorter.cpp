@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <compare>
 
 namespace adit::io {
 namespace {
@@ -69,7 +70,7 @@ void put_equal_keys_in_order(Points points, const UnsortedPoints& all) {
     if (end - begin > 1)
       std::sort(begin, end, [&](const CurvePoint& a, const CurvePoint& b) {
         const auto order = order_of(a.position, b.position);
-        return order != 0 ? order < 0 : attributes_before(all, a.index, b.index);
+        return std::is_neq(order) ? std::is_lt(order) : attributes_before(all, a.index, b.index);
       });
     begin = end;
   }

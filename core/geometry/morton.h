@@ -24,11 +24,14 @@ inline constexpr auto thirds_of_11_bits = [] {
   return table;
 }();
 
+/// every_third_bit by two looks into the table.
+inline std::uint64_t spread_21_bits(std::uint64_t x) {
+  return thirds_of_11_bits[x & 2047] | thirds_of_11_bits[x >> 11 & 1023] << 33;
+}
+
 /// Key of a cell by its low 21 bits an axis.
 inline std::uint64_t morton_key(std::uint64_t x, std::uint64_t y, std::uint64_t z) {
-  const auto& low = thirds_of_11_bits;
-  const auto spread = [&](std::uint64_t v) { return low[v & 2047] | low[v >> 11 & 1023] << 33; };
-  return spread(x) | spread(y) << 1 | spread(z) << 2;
+  return spread_21_bits(x) | spread_21_bits(y) << 1 | spread_21_bits(z) << 2;
 }
 
 struct KeyedIndex {
