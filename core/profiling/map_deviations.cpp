@@ -44,12 +44,14 @@ struct Mapper {
     return stretches.front();
   }
 
-  /// Enough of a tile: a surface through its box touches about as many cells as the box's two longer sides say.
+  /// Enough of a tile: a surface through its box touches about as many cells as the box's two longer sides say, and the
+  /// scans beside it share what a cell needs.
   std::size_t enough_points(const TileRef& ref) const {
     Eigen::Vector3d sides = scans[ref.scan].points->box(ref.tile).sizes();
     std::sort(sides.data(), sides.data() + 3);
     const double cells = (sides[2] / map.step_s_m + 1.0) * (sides[1] / map.step_q_m + 1.0);
-    return static_cast<std::size_t>(std::min(cells * options.most_points_a_cell, 1e9));
+    const double each = std::max(options.most_points_a_cell / static_cast<double>(ref.scans_beside), 20.0);
+    return static_cast<std::size_t>(std::min(cells * each, 1e9));
   }
 
   TileEntries entries_of(const TileRef& ref, const TunnelFrames& frames, std::size_t first_row,

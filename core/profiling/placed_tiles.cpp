@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <optional>
 
 #include "core/foundation/parallel.h"
@@ -9,16 +11,22 @@
 namespace adit {
 namespace {
 
-constexpr double margin_m = 0.1;
+constexpr double margin_m = 0.05;
 
-/// Chainages that a sphere may reach, from its centre alone; nothing where the axis bends too much for that.
-std::optional<TileRef> reach_of_sphere(const Eigen::Vector3d& centre, double radius_m, const Alignment& axis) {
-  const auto at = axis.to_tunnel(centre);
+/// Chainages that a scan's box may reach, from its centre's foot; nothing where the axis bends too much for that.
+std::optional<TileRef> reach_from_centre(const BoundingBox& in_scan, const Pose& local_from_scan,
+                                         const Alignment& axis) {
+  const auto at = axis.to_tunnel(local_from_scan * Eigen::Vector3d(in_scan.center()));
   if (!at) return std::nullopt;
-  const double curvature = std::abs(axis.horizontal().at(at->s_m).curvature_per_m);
-  const double squeeze = 1.0 - 1.2 * curvature * (std::abs(at->x_m) + radius_m);  // 1.2: clothoids bend on
+  const PlanPoint plan = axis.horizontal().at(at->s_m);
+  const double radius_m = 0.5 * in_scan.diagonal().norm();
+  // 1.2: clothoids bend on
+  const double squeeze = 1.0 - 1.2 * std::abs(plan.curvature_per_m) * (std::abs(at->x_m) + radius_m);
   if (squeeze < 0.2) return std::nullopt;
-  const double reach_m = radius_m / squeeze + margin_m;
+  const Eigen::Vector3d along =
+      local_from_scan.linear().transpose() * Eigen::Vector3d(plan.tangent().x(), plan.tangent().y(), 0.0);
+  const double half_length_m = 0.5 * along.cwiseAbs().dot(in_scan.sizes());
+  const double reach_m = half_length_m / squeeze + margin_m;
   return TileRef{0, 0, at->s_m - reach_m, at->s_m + reach_m};
 }
 
@@ -41,8 +49,7 @@ std::optional<TileRef> reach_of_box(const BoundingBox& box, const Alignment& axi
 std::optional<TileRef> tile_reach(const PlacedTiles& scan, std::size_t tile, const Alignment& axis) {
   const BoundingBox in_scan = scan.points->box(tile);
   if (in_scan.isEmpty()) return std::nullopt;
-  const Eigen::Vector3d centre = scan.local_from_scan * Eigen::Vector3d(in_scan.center());
-  if (const auto reach = reach_of_sphere(centre, 0.5 * in_scan.diagonal().norm(), axis)) return reach;
+  if (const auto reach = reach_from_centre(in_scan, scan.local_from_scan, axis)) return reach;
   return reach_of_box(moved(in_scan, scan.local_from_scan), axis);
 }
 
@@ -67,6 +74,21 @@ ChainageIndex::ChainageIndex(const std::vector<PlacedTiles>& scans, const Alignm
     for (std::size_t t = 0; t < reaches.size(); ++t)
       if (reaches[t]) tiles_.push_back({s, t, reaches[t]->from_m, reaches[t]->to_m});
   }
+  count_scans();
+}
+
+/// By whole metres. The tiles stand scan by scan.
+void ChainageIndex::count_scans() {
+  struct Metre {
+    std::size_t scans = 0;
+    std::size_t last = 0;  ///< scan that was counted, from 1
+  };
+  std::map<std::int64_t, Metre> metres;
+  const auto metre_of = [](double s_m) { return static_cast<std::int64_t>(std::floor(s_m)); };
+  for (const TileRef& tile : tiles_)
+    for (std::int64_t m = metre_of(tile.from_m); m <= metre_of(tile.to_m); ++m)
+      if (Metre& metre = metres[m]; metre.last != tile.scan + 1) metre = {metre.scans + 1, tile.scan + 1};
+  for (TileRef& tile : tiles_) tile.scans_beside = metres.at(metre_of(0.5 * (tile.from_m + tile.to_m))).scans;
 }
 
 std::vector<TileRef> ChainageIndex::between(double from_m, double to_m) const {

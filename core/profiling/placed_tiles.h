@@ -28,6 +28,7 @@ struct TileRef {
   std::size_t tile = 0;
   double from_m = 0.0;
   double to_m = 0.0;
+  std::size_t scans_beside = 1;  ///< how many scans have tiles at its middle, its own among them
 };
 
 /// Made once for scans and an axis (local frame), asked often. Tiles that lie beside the axis altogether are not in it.
@@ -39,6 +40,8 @@ class ChainageIndex {
   const std::vector<TileRef>& all() const { return tiles_; }
 
  private:
+  void count_scans();
+
   std::vector<TileRef> tiles_;
 };
 
@@ -57,8 +60,12 @@ void visit_slab_of_tile(const std::vector<PlacedTiles>& scans, const TileRef& re
   const Eigen::Matrix3d turn = scan.local_from_scan.linear();
   const Eigen::Vector3d shift = scan.local_from_scan.translation();
   const double middle_m = 0.5 * (ref.from_m + ref.to_m);
-  for (const auto& point : scan.points->positions(ref.tile, prefix))
-    if (const auto at = frames.to_tunnel(turn * point.cast<double>() + shift, middle_m)) visit({*at, point.norm()});
+  const StretchPlanes planes = frames.planes_from(scan.local_from_scan);
+  for (const auto& point : scan.points->positions(ref.tile, prefix)) {
+    const Eigen::Vector3d p = point.cast<double>();
+    if (planes.is_outside(p)) continue;
+    if (const auto at = frames.to_tunnel(turn * p + shift, middle_m)) visit({*at, point.norm()});
+  }
 }
 
 /// Every point whose chainage is in [from, to), scan by scan, tile by tile; tiles are read in parallel.

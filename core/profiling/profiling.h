@@ -20,7 +20,7 @@ struct ProfilingOptions {
   double reach_in_m = 0.6;            ///< points farther inside the line are equipment, people or muck, not rock
   double surface_band_m = 0.10;       ///< points this close behind one another are one surface
   int least_points = 3;               ///< a cell with fewer points is not measured
-  int most_points_a_cell = 250;       ///< of each scan; of more an even subsample is taken
+  int most_points_a_cell = 200;       ///< of all scans; of more an even subsample of each is taken
   double least_range_m = 0.6;         ///< nearer points are the scanner itself
   double most_range_m = 45.0;         ///< farther points are too oblique to be used
   double range_bias_sigma_m = 0.001;  ///< systematic error of the scanner's distances, for the uncertainty of volumes
@@ -36,7 +36,7 @@ void describe(Visitor& v, ProfilingOptions& o) {
   v.number("surface_band_m", o.surface_band_m, "m", 0.005, 1.0, "points this close behind one another are one surface");
   v.count("least_points", o.least_points, "", 1, 100, "a cell with fewer points is not measured");
   v.count("most_points_a_cell", o.most_points_a_cell, "", 20, 1000000,
-          "of each scan; of more an even subsample is taken");
+          "of all scans; of more an even subsample of each is taken");
   v.number("least_range_m", o.least_range_m, "m", 0.0, 10.0, "nearer points are the scanner itself");
   v.number("most_range_m", o.most_range_m, "m", 1.0, 1000.0, "farther points are too oblique to be used");
   v.number("range_bias_sigma_m", o.range_bias_sigma_m, "m", 0.0, 0.1,

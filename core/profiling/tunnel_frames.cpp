@@ -92,14 +92,20 @@ std::optional<TunnelPoint> TunnelFrames::exact(const Eigen::Vector3d& point, dou
   return at;
 }
 
-bool TunnelFrames::is_outside(const Eigen::Vector3d& point) const {
+StretchPlanes TunnelFrames::planes_from(const Pose& local_from_scan) const {
   constexpr double doubt_m = 0.05;  // the exact foot decides there, in the wedge of a kink, too
-  const auto ahead = [&](const Frame& frame) { return (point.head<2>() - frame.position).dot(frame.tangent); };
-  return is_short_ && (ahead(begin_) < -doubt_m || ahead(end_) > doubt_m);
+  if (!is_short_) return {};
+  const auto normal = [&](const Frame& frame) {
+    return Eigen::Vector3d(local_from_scan.linear().transpose() *
+                           Eigen::Vector3d(frame.tangent.x(), frame.tangent.y(), 0.0));
+  };
+  const auto ahead = [&](const Frame& frame) {
+    return (local_from_scan.translation().head<2>() - frame.position).dot(frame.tangent);
+  };
+  return {normal(begin_), ahead(begin_) + doubt_m, normal(end_), ahead(end_) - doubt_m};
 }
 
 std::optional<TunnelPoint> TunnelFrames::to_tunnel(const Eigen::Vector3d& point, double near_m) const {
-  if (is_outside(point)) return std::nullopt;
   const Frame* frame = &nearest(near_m);
   for (int turn = 0; turn < 3; ++turn) {
     const auto foot = foot_by(*frame, point);

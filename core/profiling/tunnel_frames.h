@@ -8,8 +8,22 @@
 #include <vector>
 
 #include "core/design/alignment.h"
+#include "core/geometry/pose.h"
 
 namespace adit {
+
+/// Two half-spaces that hold every point of a short stretch, in the frame of a scan: most points of most tiles need no
+/// more than that to be sorted out.
+struct StretchPlanes {
+  Eigen::Vector3d begin_normal = Eigen::Vector3d::Zero();
+  double begin_offset = 0.0;
+  Eigen::Vector3d end_normal = Eigen::Vector3d::Zero();
+  double end_offset = 0.0;
+
+  bool is_outside(const Eigen::Vector3d& in_scan) const {
+    return begin_normal.dot(in_scan) + begin_offset < 0.0 || end_normal.dot(in_scan) + end_offset > 0.0;
+  }
+};
 
 /// Frames every 0.25 m of a stretch of an axis. Within a frame the axis counts as an arc and the grade line as a
 /// parabola, whose feet are closed forms. Where that is not good to 0.01 mm within 8 m of the axis (a joint, a sharp
@@ -21,6 +35,9 @@ class TunnelFrames {
   /// As Alignment::to_tunnel, for points whose chainage is in [from, to); empty for all others. near_m: a chainage
   /// within some 20 m of the foot.
   std::optional<TunnelPoint> to_tunnel(const Eigen::Vector3d& point, double near_m) const;
+
+  /// Of points for which these say "outside" to_tunnel() gives nothing. All is inside where the stretch is long.
+  StretchPlanes planes_from(const Pose& local_from_scan) const;
 
  private:
   struct Frame {
@@ -40,9 +57,6 @@ class TunnelFrames {
   /// Nearest frame; the first or the last beyond the ends.
   const Frame& nearest(double chainage_m) const;
   std::optional<TunnelPoint> exact(const Eigen::Vector3d& point, double near_m) const;
-  /// True for points before the plane through the beginning of a short stretch, or beyond the one through its end: most
-  /// points of most tiles need no more than that.
-  bool is_outside(const Eigen::Vector3d& point) const;
   bool holds(double chainage_m) const { return chainage_m >= from_m_ && chainage_m < to_m_; }
 
   const Alignment* axis_;

@@ -5,6 +5,7 @@
 #include "app/placed_tiles.h"
 #include "app/run_job.h"
 #include "core/foundation/error.h"
+#include "core/foundation/parallel.h"
 #include "tests/bench/bench.h"
 
 namespace adit::bench {
@@ -26,9 +27,14 @@ void bench_sections(const std::string& job) {
   const ChainageIndex index(scans, state->design->alignment());
   const auto cut = [&](double s) { return cut_section(scans, index, *state->design, s, profiling, progress); };
   const double first = seconds_of(1, [&] { cut(middle_m); });
-  constexpr int many = 1000;
+  constexpr std::size_t many = 1000;
   const double thousand = seconds_of(1, [&] {
-    for (int i = 0; i < many; ++i) cut(stretch.from_m + (stretch.to_m - stretch.from_m) * (i + 0.5) / many);
+    parallel_for_each_index(
+        many,
+        [&](std::size_t i) {
+          cut(stretch.from_m + (stretch.to_m - stretch.from_m) * (static_cast<double>(i) + 0.5) / many);
+        },
+        1);
   });
   std::printf("| %.1f | %.3f | %.3f | %.1f |\n", static_cast<double>(points) / 1e6, indexing, first, thousand);
 }
