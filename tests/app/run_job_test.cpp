@@ -150,7 +150,8 @@ TEST(JobText, ReadsBackWhatItWrote) {
   for (const char* file : {"a.ply", "c.csv", "t.csv", "x.xml", "p.dxf"}) folder.write(file, "x");
   Job job;
   job.name = "Näset & <sons>";
-  job.scans.push_back({"S1", "a.ply", 0, Eigen::Vector3d(612345.123456, 6998765.5, 1.0), {0.0, 0.0, rad_from_deg(90.0)}});
+  job.scans.push_back(
+      {"S1", "a.ply", 0, Eigen::Vector3d(612345.123456, 6998765.5, 1.0), {0.0, 0.0, rad_from_deg(90.0)}});
   job.control = "c.csv";
   job.targets = "t.csv";
   job.alignment = "x.xml";
