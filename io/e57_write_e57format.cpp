@@ -46,11 +46,12 @@ std::string words_of(const ScanFacts& facts) {
   return words;
 }
 
-/// The nodes of one file, which all hang on it.
+/// Coordinates are stored as steps about this.
 double whole_offset(double least, double greatest) {
   return std::round((least + greatest) / 2.0);
 }
 
+/// The nodes of one file, which all hang on it.
 class Nodes {
  public:
   explicit Nodes(e57::ImageFile file) : file_(std::move(file)) {}

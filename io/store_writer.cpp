@@ -100,7 +100,7 @@ void StoreWriter::take(PointBlock& block) {
 void StoreWriter::watch_ranges(const PointBlock& block, const BoundingBox& box) {
   if (!options_.drop_no_returns || !header_.offset.isZero(0.0)) return;
   const double farthest_m = box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm() + stored_step_m;
-  if (shell_.is_beyond(farthest_m)) {
+  if (shell_.is_clear_of(farthest_m)) {
     shell_.pass(block.size());
     return;
   }

@@ -73,7 +73,6 @@ std::vector<io::ScanFacts> facts_of(const Arguments& arguments, Progress& progre
 
 /// Twice through the file, for a header stands before the points: no memory grows with it.
 std::vector<io::ScanFacts> convert(const Arguments& arguments, Progress& progress) {
-  io::expect_writable(arguments.out, arguments.write);
   Progress looking = progress.part(0.4, "reading " + arguments.in);
   std::vector<io::ScanFacts> facts = facts_of(arguments, looking);
   const auto writer = io::make_scan_writer(arguments.out, facts, arguments.write);
@@ -86,14 +85,14 @@ std::vector<io::ScanFacts> convert(const Arguments& arguments, Progress& progres
 
 /// What the new file says less than the old one.
 std::vector<std::string> losses_of(const Arguments& arguments, const std::vector<io::ScanFacts>& scans,
-                                   Progress& progress) {
+                                   const io::ScanFileSummary& source) {
   std::vector<std::string> losses = io::losses_of_writing(arguments.out, scans);
-  const io::ScanFileSummary source = io::summarise_scan_file(arguments.in, progress);
   const bool has_system = std::any_of(source.header.begin(), source.header.end(), [](const io::HeaderFact& fact) {
     return fact.name == "coordinate_system" || fact.name == "epsg";
   });
   if (has_system) losses.emplace_back("the name of the coordinate system is left out");
-  if (source.format.starts_with("LA")) losses.emplace_back("classes, numbers of returns and times are left out");
+  if (source.format.starts_with("LAS") || source.format.starts_with("LAZ"))
+    losses.emplace_back("classes, numbers of returns and times are left out");
   return losses;
 }
 
@@ -121,8 +120,10 @@ Action declare_convert(CLI::App& command) {
   return [arguments](const CommonOptions& common, Progress& progress) {
     check_another_file(arguments->in, arguments->out);
     io::remove_leftovers(std::filesystem::absolute(arguments->out).parent_path());
+    io::expect_writable(arguments->out, arguments->write);
+    const io::ScanFileSummary source = io::summarise_scan_file(arguments->in, progress);
     const std::vector<io::ScanFacts> scans = convert(*arguments, progress);
-    const std::vector<std::string> losses = losses_of(*arguments, scans, progress);
+    const std::vector<std::string> losses = losses_of(*arguments, scans, source);
     std::uint64_t points = 0;
     for (const io::ScanFacts& scan : scans) points += scan.points;
     if (common.json)

@@ -14,13 +14,12 @@ namespace adit::app {
 
 namespace {
 
-const CLI::Validator enough_memory(
-    [](const std::string& bytes) {
-      const double least = 268435456.0, most = 1e15;
-      const double value = std::strtod(bytes.c_str(), nullptr);
-      return value >= least && value <= most ? std::string() : std::string("give 256MiB or more, as 8GB");
-    },
-    "SIZE");
+/// Empty when there is enough to work with.
+std::string refused_memory(const std::string& bytes) {
+  constexpr double least = 268435456.0, most = 1e15;
+  const double value = std::strtod(bytes.c_str(), nullptr);
+  return value >= least && value <= most ? "" : "give 256MiB or more, as 8GB";
+}
 
 }  // namespace
 
@@ -37,7 +36,7 @@ Action declare_run(CLI::App& command, const std::string& last_step) {
       .add_option("--memory", arguments->memory_bytes,
                   "budget for points on their way, as 8GB; 256MiB at least (half of the machine's)")
       ->transform(CLI::AsSizeValue(true))
-      ->check(enough_memory);
+      ->check(CLI::Validator(refused_memory, "SIZE"));
   return [arguments, last_step](const CommonOptions& common, Progress& progress) {
     RunOptions options;
     options.out = arguments->out;

@@ -17,9 +17,9 @@ class NoReturnShell {
     ++points_;
     if (point.squaredNorm() >= squared_nearest_m2_) add_far(point.norm());
   }
-  /// True when points up to this range cannot belong to the shell any more.
-  bool is_beyond(double range_m) const { return range_m * range_m * (1.0 + 1e-6) < double{squared_nearest_m2_}; }
-  /// As many points that are not beyond: they only count.
+  /// True when no point up to this range can belong to the shell any more: pass() will do for them.
+  bool is_clear_of(double range_m) const { return range_m * range_m * (1.0 + 1e-6) < double{squared_nearest_m2_}; }
+  /// So many points that the shell is clear of: they only count.
   void pass(std::uint64_t points) { points_ += points; }
   /// Points at this range or farther are pulses without an echo: those that share the largest range within 1 cm, when
   /// they are ten or more, over 0.3 % of all, and that range exceeds 10 m - no surface of a tunnel is a sphere about

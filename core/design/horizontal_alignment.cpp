@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "core/foundation/options.h"
 
@@ -173,6 +174,20 @@ Eigen::Vector2d HorizontalAlignment::to_plan(const PlanFoot& foot) const {
   const PlanKnot::Local axis = knot.local(s - knot.chainage_m);
   return knot.position + (axis.along_m - foot.offset_m * axis.sine) * knot.tangent +
          (axis.right_m + foot.offset_m * axis.cosine) * knot.right();
+}
+
+AxisBend HorizontalAlignment::bend_between(double from_m, double to_m) const {
+  AxisBend bend;
+  for (std::size_t k = knot_at(from_m); k < knots_.size() && knots_[k].chainage_m <= to_m; ++k) {
+    const PlanKnot& knot = knots_[k];
+    bend.strongest_per_m =
+        std::max({bend.strongest_per_m, std::abs(knot.curvature_per_m), std::abs(knot.curvature_at(knot.length_m))});
+    if (k + 1 == knots_.size() || knots_[k + 1].element == knot.element || knots_[k + 1].chainage_m > to_m) continue;
+    const PlanPoint end = element_point(elements_[knot.element], elements_[knot.element].length_m);
+    bend.kinks_rad += std::abs(std::remainder(knots_[k + 1].azimuth_rad - end.azimuth_rad, 2.0 * pi));
+    bend.gaps_m += (knots_[k + 1].position - end.position).norm();
+  }
+  return bend;
 }
 
 HorizontalAlignment HorizontalAlignment::relative_to(const Eigen::Vector2d& origin) const {

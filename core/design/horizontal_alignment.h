@@ -46,6 +46,13 @@ struct PlanFoot {
 /// coordinates).
 PlanPoint element_point(const HorizontalElement& element, double along_m);
 
+/// How an axis turns within a stretch.
+struct AxisBend {
+  double strongest_per_m = 0.0;  ///< greatest curvature, to either side
+  double kinks_rad = 0.0;        ///< between elements, added up
+  double gaps_m = 0.0;           ///< likewise
+};
+
 /// The plan axis. Elements follow each other; every element keeps its own start, so that small gaps of the file (under
 /// a millimetre) do not add up. Chainage is start_chainage + the sum of lengths: internal, without station equations.
 class HorizontalAlignment {
@@ -72,6 +79,9 @@ class HorizontalAlignment {
   /// meet with a small gap or kink, the wedge without a foot belongs to the joint. With a hint (a chainage within some
   /// metres of the answer) the search starts there and stays within 30 m of it: about 0.1 microseconds.
   std::optional<PlanFoot> foot(const Eigen::Vector2d& point, std::optional<double> hint_m = std::nullopt) const;
+
+  /// Of the stretch [from, to], or what of it lies on the axis.
+  AxisBend bend_between(double from_m, double to_m) const;
 
   /// The same axis with `origin` (east, north) subtracted.
   HorizontalAlignment relative_to(const Eigen::Vector2d& origin) const;

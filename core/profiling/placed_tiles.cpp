@@ -12,21 +12,27 @@ namespace adit {
 namespace {
 
 constexpr double margin_m = 0.05;
+constexpr double least_squeeze = 0.2;
+constexpr double unseen_kink_rad = 1e-3;  // 1 cm at a wall 10 m off
+constexpr double unseen_gap_m = 0.01;
 
-/// Chainages that a scan's box may reach, from its centre's foot; nothing where the axis bends too much for that.
+/// Chainages that a scan's box may reach, from its centre's foot. Beside an axis that turns by no more than k reach, a
+/// step of (a along, n across) moves the foot by at most (a + n sin(k reach)) / (1 - k |x|). Nothing where the axis
+/// bends too much for that, or has a kink.
 std::optional<TileRef> reach_from_centre(const BoundingBox& in_scan, const Pose& local_from_scan,
                                          const Alignment& axis) {
   const auto at = axis.to_tunnel(local_from_scan * Eigen::Vector3d(in_scan.center()));
   if (!at) return std::nullopt;
-  const PlanPoint plan = axis.horizontal().at(at->s_m);
   const double radius_m = 0.5 * in_scan.diagonal().norm();
-  // 1.2: clothoids bend on
-  const double squeeze = 1.0 - 1.2 * std::abs(plan.curvature_per_m) * (std::abs(at->x_m) + radius_m);
-  if (squeeze < 0.2) return std::nullopt;
-  const Eigen::Vector3d along =
-      local_from_scan.linear().transpose() * Eigen::Vector3d(plan.tangent().x(), plan.tangent().y(), 0.0);
+  const double farthest_m = radius_m / least_squeeze;
+  const AxisBend bend = axis.horizontal().bend_between(at->s_m - farthest_m, at->s_m + farthest_m);
+  const double squeeze = 1.0 - bend.strongest_per_m * (std::abs(at->x_m) + radius_m);
+  if (squeeze < least_squeeze || bend.kinks_rad > unseen_kink_rad || bend.gaps_m > unseen_gap_m) return std::nullopt;
+  const Eigen::Vector2d tangent = axis.horizontal().at(at->s_m).tangent();
+  const Eigen::Vector3d along = local_from_scan.linear().transpose() * Eigen::Vector3d(tangent.x(), tangent.y(), 0.0);
   const double half_length_m = 0.5 * along.cwiseAbs().dot(in_scan.sizes());
-  const double reach_m = half_length_m / squeeze + margin_m;
+  const double turned_m = radius_m * std::min(1.0, bend.strongest_per_m * radius_m / squeeze);
+  const double reach_m = std::min(radius_m, half_length_m + turned_m) / squeeze + margin_m;
   return TileRef{0, 0, at->s_m - reach_m, at->s_m + reach_m};
 }
 

@@ -36,7 +36,7 @@ void describe(Visitor& v, ProfilingOptions& o) {
   v.number("surface_band_m", o.surface_band_m, "m", 0.005, 1.0, "points this close behind one another are one surface");
   v.count("least_points", o.least_points, "", 1, 100, "a cell with fewer points is not measured");
   v.count("most_points_a_cell", o.most_points_a_cell, "", 20, 1000000,
-          "of all scans; of more an even subsample of each is taken");
+          "of all scans, 20 of each at least; of more an even subsample is taken");
   v.number("least_range_m", o.least_range_m, "m", 0.0, 10.0, "nearer points are the scanner itself");
   v.number("most_range_m", o.most_range_m, "m", 1.0, 1000.0, "farther points are too oblique to be used");
   v.number("range_bias_sigma_m", o.range_bias_sigma_m, "m", 0.0, 0.1,
@@ -44,8 +44,8 @@ void describe(Visitor& v, ProfilingOptions& o) {
 }
 
 /// Streams every tile that reaches the stretch [from, to] into the map. The design is in the local frame. Of a dense
-/// tile an even prefix is read, most_points_a_cell for each cell it may touch. memory_bytes bounds the points in memory
-/// at a time (one row of the map at the least); it does not change the result.
+/// tile an even prefix is read, its scan's share of most_points_a_cell (20 at least) for each cell it may touch.
+/// memory_bytes bounds the points in memory at a time (one row of the map at the least); it does not change the result.
 struct MapResult {
   DeviationMap map;
   std::uint64_t points_used = 0;

@@ -26,7 +26,9 @@ TunnelFrames::TunnelFrames(const Alignment& axis, double from_m, double to_m)
   }
   double sharpest = 0.0;
   for (const Frame& frame : frames_) sharpest = std::max(sharpest, std::abs(frame.curvature_per_m));
-  is_short_ = (to_m - from_m) * sharpest < most_turn_rad;
+  // A frame that is not good may hide a kink, beside which points lie behind the plane that their chainage is ahead of.
+  const bool smooth = std::none_of(frames_.begin(), frames_.end(), [](const Frame& f) { return f.exact_needed; });
+  planes_hold_ = smooth && (to_m - from_m) * sharpest < most_turn_rad;
   begin_ = frame_at(std::clamp(from_m, axis.from_m(), axis.to_m()));
   end_ = frame_at(std::clamp(to_m, axis.from_m(), axis.to_m()));
 }
@@ -93,8 +95,8 @@ std::optional<TunnelPoint> TunnelFrames::exact(const Eigen::Vector3d& point, dou
 }
 
 StretchPlanes TunnelFrames::planes_from(const Pose& local_from_scan) const {
-  constexpr double doubt_m = 0.05;  // the exact foot decides there, in the wedge of a kink, too
-  if (!is_short_) return {};
+  constexpr double doubt_m = 0.05;  // the foot decides there
+  if (!planes_hold_) return {};
   const auto normal = [&](const Frame& frame) {
     return Eigen::Vector3d(local_from_scan.linear().transpose() *
                            Eigen::Vector3d(frame.tangent.x(), frame.tangent.y(), 0.0));

@@ -36,7 +36,8 @@ class TunnelFrames {
   /// within some 20 m of the foot.
   std::optional<TunnelPoint> to_tunnel(const Eigen::Vector3d& point, double near_m) const;
 
-  /// Of points for which these say "outside" to_tunnel() gives nothing. All is inside where the stretch is long.
+  /// Of points for which these say "outside" to_tunnel() gives nothing. All is inside where the stretch is long, turns
+  /// much or has a joint.
   StretchPlanes planes_from(const Pose& local_from_scan) const;
 
  private:
@@ -64,7 +65,7 @@ class TunnelFrames {
   double to_m_;
   double first_m_ = 0.0;
   std::vector<Frame> frames_;
-  bool is_short_ = false;  ///< no plane through the axis within the stretch cuts another within the tunnel
+  bool planes_hold_ = false;  ///< no plane across the axis within the stretch cuts another within the tunnel
   Frame begin_;
   Frame end_;
 };
