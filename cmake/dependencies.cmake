@@ -15,6 +15,7 @@ pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-pdf cairo-svg pango
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(CLIPPER REQUIRED IMPORTED_TARGET polyclipping)
 find_library(DXFLIB dxflib REQUIRED)
+find_library(ISAL isal REQUIRED)  # checksums of E57 pages
 
 # PCL's package looks for a VTK with Qt and MPI, and for cameras; none of that is ours.
 foreach(unwanted VTK OpenNI OpenNI2 Pcap)

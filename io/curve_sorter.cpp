@@ -76,12 +76,13 @@ void put_equal_keys_in_order(Points points, const UnsortedPoints& all) {
   }
 }
 
-void append(Points points, const UnsortedPoints& all, StoredPoints& to) {
-  for (const CurvePoint& point : points) to.positions.push_back(point.position);
+/// Puts sorted points where `to` holds its points from `begin` on.
+void put(Points points, const UnsortedPoints& all, StoredPoints& to, std::size_t begin) {
+  for (std::size_t i = 0; i < points.size(); ++i) to.positions[begin + i] = points[i].position;
   if (!all.intensity.empty())
-    for (const CurvePoint& point : points) to.intensity.push_back(all.intensity[point.index]);
+    for (std::size_t i = 0; i < points.size(); ++i) to.intensity[begin + i] = all.intensity[points[i].index];
   if (!all.colour.empty())
-    for (const CurvePoint& point : points) to.colour.push_back(all.colour[point.index]);
+    for (std::size_t i = 0; i < points.size(); ++i) to.colour[begin + i] = all.colour[points[i].index];
 }
 
 }  // namespace
@@ -89,11 +90,14 @@ void append(Points points, const UnsortedPoints& all, StoredPoints& to) {
 StoredPoints& CurveSorter::sorted(UnsortedPoints& unsorted) {
   // The foremost digit first, so wide that the points of one value fit near the processor; those are then sorted there.
   constexpr unsigned first_digit_bits = 16;
-  sorted_.clear();
-  if (unsorted.size() == 0) return sorted_;
-  scratch_.resize(unsorted.size());
+  const std::size_t count = unsorted.size();
+  sorted_.positions.resize(count);
+  sorted_.intensity.resize(unsorted.intensity.size());
+  sorted_.colour.resize(unsorted.colour.size());
+  if (count == 0) return sorted_;
+  scratch_.resize(count);
   place_.resize(std::size_t{1} << first_digit_bits);
-  const Points all(unsorted.points);
+  const Points all = unsorted.points();
   const Points scratch(scratch_);
   const auto bits = static_cast<unsigned>(std::bit_width(differing_bits(all)));
   sort_by_digit(all, scratch, bits > first_digit_bits ? bits - first_digit_bits : 0, place_);
@@ -102,7 +106,7 @@ StoredPoints& CurveSorter::sorted(UnsortedPoints& unsorted) {
     if (end == begin) continue;
     const Points bucket = sorted_by_key(scratch.subspan(begin, end - begin), all.subspan(begin, end - begin));
     put_equal_keys_in_order(bucket, unsorted);
-    append(bucket, unsorted, sorted_);
+    put(bucket, unsorted, sorted_, begin);
     begin = end;
   }
   return sorted_;

@@ -1,6 +1,7 @@
 #pragma once
 // Puts points into the order of the space-filling curve, in memory.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,18 +19,30 @@ struct CurvePoint {
   std::uint32_t index = 0;  ///< of its attributes
 };
 
-/// Points as they came; attributes are empty or as long as points.
-struct UnsortedPoints {
-  std::vector<CurvePoint> points;
+/// Points as they came; attributes are empty or as long as they.
+class UnsortedPoints {
+ public:
   std::vector<float> intensity;
   std::vector<std::array<std::uint8_t, 3>> colour;
 
-  std::size_t size() const { return points.size(); }
+  std::size_t size() const { return size_; }
+  std::span<CurvePoint> points() { return std::span(points_).first(size_); }
+  /// Places for so many more; the caller fills them.
+  std::span<CurvePoint> add(std::size_t count) {
+    points_.resize(std::max(points_.size(), size_ + count));
+    size_ += count;
+    return std::span(points_).subspan(size_ - count, count);
+  }
+  /// Keeps the memory.
   void clear() {
-    points.clear();
+    size_ = 0;
     intensity.clear();
     colour.clear();
   }
+
+ private:
+  std::vector<CurvePoint> points_;  // never shorter than it was: new places would be filled twice
+  std::size_t size_ = 0;
 };
 
 /// Sorts by comes_before; keeps its memory for the next time.

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "io/e57.h"
+#include "io/e57_pages.h"
 #include "io/e57_scan_e57format.h"
 #include "io/point_stream.h"
 
@@ -73,14 +74,19 @@ FilePoint point_of(const E57Scan& scan, const Records& records, std::size_t i) {
   return point;
 }
 
-void stream_scan(const e57::ImageFile& file, const E57Scan& scan, PointStream& out, const Progress& progress) {
+void stream_scan(const fs::path& path, const e57::ImageFile& file, const E57Scan& scan, PointStream& out,
+                 const Progress& progress) {
   const E57Field state = scan.spherical ? e57_spherical_invalid : e57_invalid;
   const bool may_be_invalid = scan.has[state];
   if (scan.header.points == 0) return;  // there may be no packet that a reader could begin with
+  const InputFile pages(path);
+  E57PageCheck check(pages, e57_records_part(pages, scan.records_begin));
+  check.ahead_of(0.0);
   Records records(file, scan);
   std::uint64_t done = 0;
   for (std::size_t n = 0; (n = records.next()) > 0; done += n) {
     progress.step(done, scan.header.points);
+    check.ahead_of(static_cast<double>(done) / static_cast<double>(scan.header.points));
     for (std::size_t i = 0; i < n; ++i) {
       if (may_be_invalid && records(state, i) != 0.0) {
         out.add_no_return();  // 1: only the direction is known, 2: nothing
@@ -90,6 +96,7 @@ void stream_scan(const e57::ImageFile& file, const E57Scan& scan, PointStream& o
       }
     }
   }
+  check.rest();
   if (done != scan.header.points)
     throw Error(
         "the XML says " + std::to_string(scan.header.points) + " points, the file holds " + std::to_string(done),
@@ -104,12 +111,12 @@ bool e57_is_built_in() {
 
 void stream_e57(const fs::path& path, const ReadOptions& options, ScanSink& sink, Progress& progress) {
   with_e57_errors(path, [&] {
-    const e57::ImageFile file = open_e57(path);
+    const OpenE57 file = open_e57(path);
     const std::vector<E57Scan> scans = e57_scans(file, path);
     for (const E57Scan& scan : scans) {
       const Progress part = progress.part(1.0 / static_cast<double>(scans.size()), "reading " + scan.header.name);
       PointStream out(scan.header, options, NanMeans::no_return_if_all, sink);
-      if (out.wanted()) stream_scan(file, scan, out, part);
+      if (out.wanted()) stream_scan(path, file.library, scan, out, part);
       out.end();
     }
   });
@@ -117,10 +124,10 @@ void stream_e57(const fs::path& path, const ReadOptions& options, ScanSink& sink
 
 ScanFileSummary summarise_e57(const fs::path& path, Progress&) {
   return with_e57_errors(path, [&] {
-    const e57::ImageFile file = open_e57(path);
+    const OpenE57 file = open_e57(path);
     ScanFileSummary summary;
     summary.format = "E57 1.0";
-    summary.header = e57_description(file);
+    summary.header = e57_description(file.library);
     for (const E57Scan& scan : e57_scans(file, path)) {
       ScanSummary row;
       row.name = scan.header.name;

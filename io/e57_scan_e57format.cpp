@@ -215,8 +215,8 @@ E57Scan scan_of(const StructureNode& node, const fs::path& path, int n) {
 
 }  // namespace
 
-std::vector<E57Scan> e57_scans(const e57::ImageFile& file, const fs::path& path) {
-  const StructureNode root = file.root();
+std::vector<E57Scan> e57_scans(const OpenE57& file, const fs::path& path) {
+  const StructureNode root = file.library.root();
   std::vector<E57Scan> scans;
   if (root.isDefined("data3D") && root.get("data3D").type() == e57::E57_VECTOR) {
     const e57::VectorNode list(root.get("data3D"));
@@ -225,6 +225,8 @@ std::vector<E57Scan> e57_scans(const e57::ImageFile& file, const fs::path& path)
       if (list.get(i).type() != e57::E57_STRUCTURE)
         throw Error("the scan is no structure", path.string() + ": scan " + std::to_string(n), export_again);
       scans.push_back(scan_of(StructureNode(list.get(i)), path, n));
+      const auto place = static_cast<std::size_t>(i);
+      if (place < file.record_places.size()) scans.back().records_begin = file.record_places[place];
     }
   }
   if (scans.empty()) throw Error("the file holds no scans", path.string(), "export it again with its points");
@@ -257,19 +259,17 @@ std::vector<HeaderFact> e57_description(const e57::ImageFile& file) {
   return facts;
 }
 
-e57::ImageFile open_e57(const fs::path& path) {
-  expect_plain_e57_xml(InputFile(path));
+OpenE57 open_e57(const fs::path& path) {
+  const std::string xml = read_plain_e57_xml(InputFile(path));
   // Xerces begins and ends inside, for the whole program: two threads must not.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
-  return e57::ImageFile(path.string(), "r", e57::CHECKSUM_POLICY_ALL);
+  return {e57::ImageFile(path.string(), "r", e57::CHECKSUM_POLICY_NONE), e57_record_places(xml)};
 }
 
 Error e57_error(const e57::E57Exception& exception, const fs::path& path) {
   const e57::ErrorCode code = exception.errorCode();
   std::string words = e57::Utilities::errorCodeToString(code);
-  if (code == e57::E57_ERROR_BAD_CHECKSUM)
-    return Error("a checksum of the file is wrong", path.string(), "the file is damaged; copy or export it again");
   std::string context = exception.context();
   std::replace_if(
       context.begin(), context.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }, ' ');

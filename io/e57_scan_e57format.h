@@ -61,17 +61,23 @@ struct E57Scan {
   std::uint64_t rows = 0;  ///< of the raster; 0 when the file does not say
   std::uint64_t columns = 0;
   e57::CompressedVectorNode records;
+  std::uint64_t records_begin = 0;  ///< byte of the file; 0 when the XML does not say
 };
+
+/// A file that has been looked through. The library leaves checksums to E57PageCheck; those of header and XML are
+/// right.
+struct OpenE57 {
+  e57::ImageFile library;
+  std::vector<std::uint64_t> record_places;  ///< of each scan (e57_record_places)
+};
+OpenE57 open_e57(const std::filesystem::path& path);
 
 /// All scans of an open file. Error for a file without scans, points without coordinates, a pose that is not rigid, and
 /// records that the file cannot hold.
-std::vector<E57Scan> e57_scans(const e57::ImageFile& file, const std::filesystem::path& path);
+std::vector<E57Scan> e57_scans(const OpenE57& file, const std::filesystem::path& path);
 
 /// What the file says of itself beyond its scans: software, date, coordinate system, images, sensors.
 std::vector<HeaderFact> e57_description(const e57::ImageFile& file);
-
-/// Opens a file that has been looked through.
-e57::ImageFile open_e57(const std::filesystem::path& path);
 
 /// The library's exception as an Error about the file.
 Error e57_error(const e57::E57Exception& exception, const std::filesystem::path& path);

@@ -1,22 +1,22 @@
 #include "io/e57_xml.h"
 
 #include <algorithm>
+#include <pugixml.hpp>
 #include <string_view>
-#include <vector>
 
 #include "core/foundation/error.h"
+#include "io/e57_pages.h"
 
 namespace adit::io {
 namespace {
 
 constexpr std::uint64_t header_bytes = 48;
 constexpr std::uint64_t page_bytes = 1024;
-constexpr std::uint64_t page_content_bytes = 1020;  // the rest is the page's checksum
 constexpr int deepest = 64;
 constexpr std::uint64_t most_xml_bytes = std::uint64_t{64} << 20;  // of some thousand scans and images it is one MB
 constexpr const char* damaged = "the file is damaged; copy or export it again";
 
-/// The XML without the checksums of its pages. Its length is compared with the file's before memory is taken.
+/// Its length is compared with the file's before memory is taken.
 std::string read_xml(const InputFile& file) {
   const std::vector<std::byte> header = file.read(0, header_bytes, "the E57 header");
   const auto number = [&](std::size_t offset) { return little<std::uint64_t>(header.data() + offset); };
@@ -33,22 +33,11 @@ std::string read_xml(const InputFile& file) {
   if (number(40) != page_bytes) fail(40, "pages of " + std::to_string(number(40)) + " bytes are not known", damaged);
   const std::uint64_t begin = number(24);
   const std::uint64_t length = number(32);
-  if (begin >= file.size() || begin % page_bytes >= page_content_bytes || begin < header_bytes)
-    fail(24, "the XML part cannot stand at byte " + std::to_string(begin), damaged);
-  if (length == 0 || length > file.size() - begin)
-    fail(32, "the XML part cannot have " + std::to_string(length) + " bytes", damaged);
+  if (begin < header_bytes) fail(24, "the XML part cannot stand at byte " + std::to_string(begin), damaged);
+  const E57Part part = e57_part(file, begin, length, "the XML part");
   if (length > most_xml_bytes) fail(32, "the XML part of " + std::to_string(length) + " bytes is too long", damaged);
-  std::string xml;
-  xml.reserve(length);
-  for (std::uint64_t at = begin; xml.size() < length;) {
-    const std::uint64_t left_in_page = page_content_bytes - at % page_bytes;
-    const std::size_t take = std::min<std::uint64_t>(left_in_page, length - xml.size());
-    const std::size_t before = xml.size();
-    xml.resize(before + take);
-    file.read(at, reinterpret_cast<std::byte*>(xml.data()) + before, take, "the XML part");
-    at += left_in_page + (page_bytes - page_content_bytes);
-  }
-  return xml;
+  E57PageCheck(file, {0, header_bytes}).rest();
+  return read_e57_content(file, part, "the XML part");
 }
 
 bool has(std::string_view xml, std::string_view word) {
@@ -104,8 +93,8 @@ int depth_of(std::string_view xml) {
 
 }  // namespace
 
-void expect_plain_e57_xml(const InputFile& file) {
-  const std::string all = read_xml(file);
+std::string read_plain_e57_xml(const InputFile& file) {
+  std::string all = read_xml(file);
   std::string_view xml = all;
   const auto fail = [&](const std::string& words) {
     throw Error(words, file.name() + ": XML part", "export the scan again with another program");
@@ -119,6 +108,16 @@ void expect_plain_e57_xml(const InputFile& file) {
   if (has(xml, "<!DOCTYPE")) fail("the XML has a document type, which E57 forbids");
   if (has(xml, "schemaLocation") || has(xml, "SchemaLocation")) fail("the XML names a schema to be fetched");
   if (depth_of(xml) > deepest) fail("the elements are nested more than " + std::to_string(deepest) + " deep");
+  return all;
+}
+
+std::vector<std::uint64_t> e57_record_places(const std::string& xml) {
+  pugi::xml_document document;
+  document.load_buffer(xml.data(), xml.size(), pugi::parse_minimal);  // what it cannot read, the library refuses
+  std::vector<std::uint64_t> places;
+  for (const pugi::xml_node scan : document.document_element().child("data3D").children())
+    places.push_back(scan.child("points").attribute("fileOffset").as_ullong());
+  return places;
 }
 
 }  // namespace adit::io

@@ -9,7 +9,6 @@
 
 #include "core/foundation/error.h"
 #include "core/geometry/morton.h"
-#include "io/atomic_file.h"
 #include "io/scan_from_memory.h"
 #include "io/scan_offset.h"
 
@@ -110,11 +109,13 @@ void StoreWriter::watch_ranges(const PointBlock& block, const BoundingBox& box) 
 
 void StoreWriter::add(const PointBlock& block) {
   points_ += block.size();
-  const std::size_t before = filling_.size();
-  filling_.points.resize(before + block.size());
-  for (std::size_t i = 0; i < block.size(); ++i) {
-    const StoredPosition stored = stored_position(block.positions[i] - header_.offset, header_.keep);
-    filling_.points[before + i] = {curve_key(stored, header_.keep), stored, static_cast<std::uint32_t>(before + i)};
+  const auto first = static_cast<std::uint32_t>(filling_.size());
+  const std::span<CurvePoint> places = filling_.add(block.size());
+  const Keep keep = header_.keep;
+  const Eigen::Vector3d offset = header_.offset;
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    const StoredPosition stored = stored_position(block.positions[i] - offset, keep);
+    places[i] = {curve_key(stored, keep), stored, first + i};
   }
   // Zero has one sign, so that equal points are equal to the bit.
   for (const float value : block.intensity) filling_.intensity.push_back(value + 0.0F);
@@ -143,7 +144,7 @@ void StoreWriter::expect_the_scan() const {
         path_.string(), "choose another");
 }
 
-void StoreWriter::commit(Progress& progress) {
+void StoreWriter::write(Progress& progress) {
   expect_the_scan();
   const std::uint64_t dropped = shell_.count();
   header_.points = points_ - dropped;
@@ -159,6 +160,11 @@ void StoreWriter::commit(Progress& progress) {
   write_tiles(std::move(runs_), progress);
 }
 
+void StoreWriter::commit() {
+  written_.value().commit();
+  written_.reset();
+}
+
 void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
   const Keep keep = header_.keep;
   const auto tiles = static_cast<std::size_t>((header_.points + store_tile_points - 1) / store_tile_points);
@@ -167,7 +173,7 @@ void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
     return limit_m == std::numeric_limits<float>::infinity() || position_of(p, keep).norm() < limit_m;
   };
   MergedRuns merged(std::move(runs), spool_, keep);
-  AtomicFile file(path_);
+  AtomicFile& file = written_.emplace(path_);
   file.append(store_beginning());
   // Tiles differ in length by one point at the most.
   const auto least_points = static_cast<std::uint32_t>(header_.points / tiles);
@@ -202,14 +208,14 @@ void StoreWriter::write_tiles(std::vector<SortedRun> runs, Progress& progress) {
               }) &
           tbb::make_filter<std::shared_ptr<WrittenTile>, void>(tbb::filter_mode::serial_in_order, append));
   file.append(store_end(header_));
-  file.commit();
 }
 
 void write_point_store(const std::filesystem::path& path, const ScanData& scan, const StoreOptions& options,
                        Progress& progress) {
   StoreWriter writer(path, options);
   stream_from_memory(scan, path, writer, progress);
-  writer.commit(progress);
+  writer.write(progress);
+  writer.commit();
 }
 
 }  // namespace adit::io

@@ -5,11 +5,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/cleaning/no_returns.h"
 #include "core/foundation/progress.h"
+#include "io/atomic_file.h"
 #include "io/curve_sorter.h"
 #include "io/point_store_header.h"
 #include "io/scan_formats.h"
@@ -35,7 +37,8 @@ struct StoreOptions {
 ///
 ///   StoreWriter writer(path, options);
 ///   stream_scans(file, {}, writer, progress);
-///   writer.commit(progress);
+///   writer.write(progress);
+///   writer.commit();
 class StoreWriter : public ScanSink {
  public:
   StoreWriter(std::filesystem::path path, StoreOptions options);
@@ -52,9 +55,11 @@ class StoreWriter : public ScanSink {
   /// Names of all scans the file held.
   const std::vector<std::string>& scans_seen() const { return scans_seen_; }
 
-  /// Sorts, cuts into tiles and writes them, atomically. Error when the file did not hold the scan, or held several and
-  /// none was chosen.
-  void commit(Progress& progress);
+  /// Sorts, cuts into tiles and writes them to a temporary; lets go of the memory. Error when the file did not hold the
+  /// scan, or held several and none was chosen.
+  void write(Progress& progress);
+  /// After write(): waits for the disk and gives the store its name, in one step.
+  void commit();
 
  private:
   void expect_the_scan() const;
@@ -77,6 +82,7 @@ class StoreWriter : public ScanSink {
   SpoolFile spool_;
   CurveSorter sorter_;
   std::vector<SortedRun> runs_;
+  std::optional<AtomicFile> written_;
   tbb::task_group sorting_;  ///< at most one run at a time, beside the reader
 };
 

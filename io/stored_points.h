@@ -27,15 +27,15 @@ using StoredPosition = std::array<std::int32_t, 3>;
 inline constexpr double stored_step_m = 1e-4;
 inline constexpr double stored_steps_a_metre = 1e4;
 
+inline std::int32_t stored_coordinate(double value_m, Keep keep) {
+  const double steps = value_m * stored_steps_a_metre;
+  return keep == Keep::float32 ? std::bit_cast<std::int32_t>(static_cast<float>(value_m))
+                               : static_cast<std::int32_t>(steps + (steps < 0.0 ? -0.5 : 0.5));
+}
+
 inline StoredPosition stored_position(const Eigen::Vector3d& less_offset, Keep keep) {
-  StoredPosition stored{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double value = less_offset[static_cast<Eigen::Index>(axis)];
-    const double steps = value * stored_steps_a_metre;
-    stored[axis] = keep == Keep::float32 ? std::bit_cast<std::int32_t>(static_cast<float>(value))
-                                         : static_cast<std::int32_t>(steps + (steps < 0.0 ? -0.5 : 0.5));
-  }
-  return stored;
+  return {stored_coordinate(less_offset.x(), keep), stored_coordinate(less_offset.y(), keep),
+          stored_coordinate(less_offset.z(), keep)};
 }
 
 inline Eigen::Vector3f position_of(const StoredPosition& stored, Keep keep) {

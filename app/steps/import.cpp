@@ -8,7 +8,10 @@
 #include <cctype>
 #include <cstdio>
 #include <exception>
+#include <future>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/step.h"
 #include "core/foundation/error.h"
@@ -91,33 +94,44 @@ void refuse_several_scans(const std::vector<std::string>& names, const std::stri
               file, "add \"scan\": 1 (2, 3, ...) beside \"file\", and one entry for each");
 }
 
-void make_store(const JobState& state, const JobScan& scan, const std::filesystem::path& target,
-                const io::StoreOptions& options, Progress& progress) {
+/// The store of a scan, written but for its name.
+std::unique_ptr<io::StoreWriter> written_store(const JobState& state, const JobScan& scan,
+                                               const std::filesystem::path& target, const io::StoreOptions& options,
+                                               Progress& progress) {
   const std::filesystem::path file = state.folder / scan.file;
-  io::StoreWriter writer(target, options);
+  auto writer = std::make_unique<io::StoreWriter>(target, options);
   Progress reading = progress.part(0.6, "reading " + scan.file);
-  io::stream_scans(file, {}, writer, reading);
-  if (scan.number == 0 && writer.scans_seen().size() > 1) refuse_several_scans(writer.scans_seen(), file.string());
-  if (static_cast<std::size_t>(scan.number) > writer.scans_seen().size())
+  io::stream_scans(file, {}, *writer, reading);
+  if (scan.number == 0 && writer->scans_seen().size() > 1) refuse_several_scans(writer->scans_seen(), file.string());
+  if (static_cast<std::size_t>(scan.number) > writer->scans_seen().size())
     throw Error("there is no scan " + std::to_string(scan.number) + "; the file holds " +
-                    std::to_string(writer.scans_seen().size()),
+                    std::to_string(writer->scans_seen().size()),
                 file.string(), "correct \"scan\" in the job");
   if (io::stamp_of(file) != state.input_stamp.at(scan.file))
     throw Error("the file changed while it was being read", file.string(), "wait until it is whole, then run again");
   Progress writing = progress.part(0.4, "storing " + scan.name);
-  writer.commit(writing);
+  writer->write(writing);
+  return writer;
 }
 
-void import_scan(const JobState& state, std::size_t index, Progress& progress) {
+/// Null when an earlier import has made the store.
+std::unique_ptr<io::StoreWriter> import_scan(const JobState& state, std::size_t index, Progress& progress) {
   const JobScan& scan = state.job.scans[index];
   const std::filesystem::path target = store_file(state, index);
   const io::StoreOptions options = store_options(state, scan);
-  if (!is_made_already(target, options, progress)) make_store(state, scan, target, options, progress);
-  check_unit(io::PointStore(target), (state.folder / scan.file).string());
+  if (is_made_already(target, options, progress)) return nullptr;
+  return written_store(state, scan, target, options, progress);
 }
 
-/// Several scans at once, as many as there are threads and memory for. The first bad one in the order of the job is
-/// what is reported, whichever was read first.
+/// Waits for the disk, then looks at the points.
+void finish_scan(const JobState& state, std::size_t index, std::unique_ptr<io::StoreWriter> written) {
+  if (written) written->commit();
+  written.reset();
+  check_unit(io::PointStore(store_file(state, index)), (state.folder / state.job.scans[index].file).string());
+}
+
+/// Several scans at once, as many as there are threads and memory for; the next one is read while the disk takes in the
+/// last. The first bad one in the order of the job is what is reported, whichever was read first.
 void import_scans(const JobState& state, Progress& progress) {
   constexpr std::uint64_t bytes_a_scan = 150'000'000;  // runs, their fronts, and tiles on their way
   const std::size_t scans = state.job.scans.size();
@@ -130,14 +144,22 @@ void import_scans(const JobState& state, Progress& progress) {
   std::vector<std::exception_ptr> errors(scans);
   std::atomic<std::size_t> next{0};
   std::atomic<bool> failed{false};
+  const auto keep_error_of = [&](std::size_t i, const auto& part) {
+    try {
+      part();
+    } catch (...) {
+      errors[i] = std::current_exception();
+      failed = true;
+    }
+  };
   const auto work = [&] {
+    std::future<void> finishing;  // its destructor waits
     for (std::size_t i = next++; i < scans && !failed; i = next++) {
-      try {
-        import_scan(state, i, parts[i]);
-      } catch (...) {
-        errors[i] = std::current_exception();
-        failed = true;
-      }
+      keep_error_of(i, [&] {
+        finishing = std::async(std::launch::async, [&, i, written = import_scan(state, i, parts[i])]() mutable {
+          keep_error_of(i, [&] { finish_scan(state, i, std::move(written)); });
+        });
+      });
     }
   };
   tbb::task_group group;

@@ -48,6 +48,37 @@ TEST_F(BrokenE57, EveryFlippedBitIsFound) {
   }
 }
 
+/// Behind what is checked before the first point is read.
+TEST_F(BrokenE57, DamageFarBehindIsNamedByItsPage) {
+  const std::vector<tests::StreamedScan> scans{tests::sample_stream(600'000, "long"),
+                                               tests::sample_stream(50, "short")};
+  tests::write_streams(make_e57_writer, folder_ / "long.e57", scans);
+  std::string bytes = tests::bytes_of(folder_ / "long.e57");
+  ASSERT_GT(bytes.size(), 15'000'000U);
+  const std::size_t page = bytes.size() * 3 / 4 / tests::e57_page * tests::e57_page;
+  bytes[page + 77] = static_cast<char>(bytes[page + 77] ^ 4);
+  EXPECT_THAT(refused(bytes), HasSubstr("b.e57: byte " + std::to_string(page) +
+                                        ": a checksum of the file is wrong; the file is damaged"));
+}
+
+/// The XML tells where the points of a scan begin, and their section how long it is.
+TEST_F(BrokenE57, SectionsThatAreNone) {
+  const auto at = [&](const std::string& place) {
+    return refused(with_words(bytes_, "fileOffset=\"48\"", "fileOffset=\"" + place + "\""));
+  };
+  EXPECT_EQ(at("48"), "(read)");
+  EXPECT_NE(at("18446744073709551615"), "(read)");
+  EXPECT_NE(at("1022"), "(read)");
+  EXPECT_NE(at("0"), "(read)");
+  std::string content = tests::without_checksums(bytes_);
+  tests::put_number(content, 48 + 8, std::uint64_t{1} << 40);
+  EXPECT_THAT(refused(tests::with_checksums(content)),
+              HasSubstr("the points' section cannot have 1099511627776 bytes"));
+  content = tests::without_checksums(bytes_);
+  content[48] = 3;
+  EXPECT_THAT(refused(tests::with_checksums(content)), HasSubstr("byte 48: no section with points begins here"));
+}
+
 TEST_F(BrokenE57, NumbersOfRecordsThatTheFileCannotHold) {
   const auto records = [&](const std::string& count) {
     return refused(with_words(bytes_, "recordCount=\"3000\"", "recordCount=\"" + count + "\""));

@@ -161,7 +161,8 @@ TEST(PointStore, OneScanOfAFileIsChosen) {
     options.scan = number;
     StoreWriter writer(folder / "s.points", options);
     stream_scans(folder / "two.ptx", {}, writer, progress);
-    writer.commit(progress);
+    writer.write(progress);
+    writer.commit();
     return PointStore(folder / "s.points").points();
   };
   EXPECT_EQ(points_of(1), 100U);
