@@ -1,5 +1,5 @@
 #pragma once
-// A scan made ready for matching: even subsample, search tree, normals.
+// A scan made ready for matching: even subsample, search tree, normals, normal distributions.
 
 #include <memory>
 #include <string>
@@ -9,6 +9,7 @@
 #include "core/geometry/nearest_neighbours.h"
 #include "core/geometry/normals.h"
 #include "core/geometry/tile_source.h"
+#include "core/registration/distribution_map.h"
 
 namespace adit {
 
@@ -19,6 +20,7 @@ struct PreparedScan {
   std::vector<Eigen::Vector3f> points;
   std::vector<SurfaceNormal> normals;
   std::shared_ptr<const NearestNeighbours> tree;
+  DistributionPyramid pyramid;  ///< from cells of twice the spacing on, of all points that were read
 };
 
 /// Points at an even spacing (halved, twice at most, while a scan of a small room leaves fewer than 20,000 of them),

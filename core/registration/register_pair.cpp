@@ -5,7 +5,6 @@
 
 #include "core/foundation/parallel.h"
 #include "core/geometry/statistics.h"
-#include "core/registration/icp.h"
 #include "core/registration/ndt.h"
 #include "core/registration/observability.h"
 
@@ -104,19 +103,11 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   PairResult pair;
   pair.source = source.name;
   pair.target = target.name;
-  Pose pose = guess;
-  for (const double cell_m : {2.0 * options.cell_m, options.cell_m}) {
-    NdtOptions ndt;
-    ndt.cell_m = cell_m;
-    ndt.source_spacing_m = 0.3 * cell_m;
-    Progress transform = progress.part(0.3, "");
-    pose = ndt_align(target, source, pose, ndt, transform);
-  }
-  IcpOptions icp;
-  icp.match_distance_m = 2.0 * options.match_distance_m;
-  Progress closest = progress.part(0.25, "");
-  pose = icp_align(target, source, pose, icp, closest);
-  Progress last = progress.part(0.15, "");
+  NdtOptions ndt;
+  ndt.coarsest_cell_m = options.cell_m;
+  Progress transform = progress.part(0.7, "");
+  const Pose pose = ndt_align(target.pyramid, source.pyramid, guess, ndt, transform).target_from_source;
+  Progress last = progress.part(0.3, "");
   pair.target_from_source = polished(target, source, pose, options.match_distance_m, last);
   judge(pair, target, source, guess, tunnel_axes(axis_in_target), options, last);
   return pair;

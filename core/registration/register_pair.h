@@ -11,8 +11,8 @@ namespace adit {
 double overlap_at(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                   double distance_m);
 
-/// Normal distributions transform in coarse and fine cells, iterative closest point, then Gauss-Newton steps with
-/// Tukey's weights in double precision. axis_in_target: unit direction of the tunnel in the target's frame. Directions
+/// Normal distributions transform from coarse cells to fine ones, then iterative closest point: point-to-plane steps
+/// with Tukey's weights. axis_in_target: unit direction of the tunnel in the target's frame. Directions
 /// that the clouds do not determine are put back to the guess and named.
 PairResult register_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess,
                          const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options, Progress& progress);

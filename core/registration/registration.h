@@ -17,7 +17,7 @@ namespace adit {
 
 struct RegistrationOptions {
   double spacing_m = 0.10;         ///< even subsample used for matching
-  double cell_m = 1.0;             ///< cells of the normal distributions transform (first twice this, then this)
+  double cell_m = 4.0;             ///< coarsest cells of the normal distributions transform; finer ones follow
   double match_distance_m = 0.30;  ///< farthest pair of points of the last refinement
   double pair_distance_m = 35.0;   ///< stations farther apart are not paired
   double least_overlap = 0.15;     ///< pairs with less overlap are not used
@@ -31,7 +31,7 @@ struct RegistrationOptions {
 template <typename Visitor>
 void describe(Visitor& v, RegistrationOptions& o) {
   v.number("spacing_m", o.spacing_m, "m", 0.01, 1.0, "even subsample used for matching");
-  v.number("cell_m", o.cell_m, "m", 0.2, 10.0, "cells of the normal distributions transform");
+  v.number("cell_m", o.cell_m, "m", 0.2, 10.0, "coarsest cells of the normal distributions transform");
   v.number("match_distance_m", o.match_distance_m, "m", 0.02, 2.0, "farthest pair of points of the last refinement");
   v.number("pair_distance_m", o.pair_distance_m, "m", 1.0, 200.0, "stations farther apart are not paired");
   v.number("least_overlap", o.least_overlap, "", 0.01, 0.95, "pairs with less overlap are not used");
@@ -111,7 +111,7 @@ struct RegistrationContext {
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> axis_direction;
 };
 
-/// Places all scans. Longest gap between two checks for cancel: one transform iteration of a pair (about 0.2 s).
+/// Places all scans. Longest gap between two checks for cancel: summing up a few tiles (about 0.1 s).
 /// Throws Error for contradictions in the input (a target without its control point, no scan).
 RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const RegistrationContext& context,
                                   const RegistrationOptions& options, Progress& progress);

@@ -1,9 +1,9 @@
 #include <pcl/point_types.h>
 #include <pcl/registration/icp.h>
 
-#include "core/registration/icp.h"
+#include "tests/bench/pcl_icp.h"
 
-namespace adit {
+namespace adit::bench {
 namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointNormal>;
@@ -26,8 +26,8 @@ Cloud::Ptr surface_points(const PreparedScan& scan, const Wanted& wanted) {
 
 }  // namespace
 
-Pose icp_align(const PreparedScan& target, const PreparedScan& source, const Pose& guess, const IcpOptions& options,
-               Progress& progress) {
+Pose pcl_icp_align(const PreparedScan& target, const PreparedScan& source, const Pose& guess,
+                   const PclIcpOptions& options, Progress& progress) {
   constexpr int iterations_a_turn = 4;  // a cancel is heard between turns
   pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
   // PCL looks for the nearest point however far it is, which takes minutes for points beyond the target.
@@ -61,4 +61,4 @@ Pose icp_align(const PreparedScan& target, const PreparedScan& source, const Pos
   return pose;
 }
 
-}  // namespace adit
+}  // namespace adit::bench

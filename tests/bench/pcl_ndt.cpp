@@ -2,9 +2,9 @@
 #include <pcl/registration/ndt.h>
 
 #include "core/geometry/voxel_grid.h"
-#include "core/registration/ndt.h"
+#include "tests/bench/pcl_ndt.h"
 
-namespace adit {
+namespace adit::bench {
 namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
@@ -27,8 +27,8 @@ Pose rigid(const Eigen::Matrix4f& matrix) {
 
 }  // namespace
 
-Pose ndt_align(const PreparedScan& target, const PreparedScan& source, const Pose& guess, const NdtOptions& options,
-               Progress& progress) {
+Pose pcl_ndt_align(const PreparedScan& target, const PreparedScan& source, const Pose& guess,
+                   const PclNdtOptions& options, Progress& progress) {
   // A few iterations at a time, so that a cancel is heard: PCL cannot be stopped from outside.
   constexpr int iterations_a_turn = 4;
   pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::PointXYZ> ndt;
@@ -54,4 +54,4 @@ Pose ndt_align(const PreparedScan& target, const PreparedScan& source, const Pos
   return pose;
 }
 
-}  // namespace adit
+}  // namespace adit::bench

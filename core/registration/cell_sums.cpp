@@ -1,0 +1,168 @@
+#include "core/registration/cell_sums.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/foundation/error.h"
+#include "core/foundation/parallel.h"
+
+namespace adit {
+namespace {
+
+constexpr std::size_t block_points = 131072;  // fixed, so that sums do not depend on the threads
+constexpr std::size_t tiles_at_once = 4;      // fixed as well
+constexpr double points_a_cell = 64.0;
+
+std::uint64_t key_of(const Eigen::Vector3f& point, double cell_m) {
+  const Eigen::Vector3d cell = (point.cast<double>() / cell_m).array().floor() + half_cells;
+  if (!(cell.minCoeff() >= 0.0 && cell.maxCoeff() < 2.0 * half_cells))
+    throw Error("a point lies too far from the scanner for cells of " + std::to_string(cell_m) + " m", "",
+                "remove stray points or use larger cells");
+  return cell_key(cell);
+}
+
+void add(CellSums& to, const CellSums& more) {
+  to.points += more.points;
+  to.first += more.first;
+  to.second += more.second;
+}
+
+/// Cells of a block of points, by open addressing while they come, in order at the end.
+class BlockSums {
+ public:
+  BlockSums() { grow(1024); }
+
+  void add(std::uint64_t key, const Eigen::Vector3d& x) {
+    CellSums& cell = cell_of(key);
+    cell.points += 1.0;
+    cell.first += x;
+    cell.second.noalias() += x * x.transpose();
+  }
+  std::vector<CellSums> in_order() {
+    std::sort(cells_.begin(), cells_.end(), [](const CellSums& a, const CellSums& b) { return a.key < b.key; });
+    return std::move(cells_);
+  }
+
+ private:
+  CellSums& cell_of(std::uint64_t key) {
+    if (last_ < cells_.size() && cells_[last_].key == key) return cells_[last_];  // neighbours follow one another
+    if (2 * cells_.size() >= slots_.size()) grow(2 * slots_.size());
+    std::size_t i = place_of(key);
+    while (slots_[i] != 0 && cells_[slots_[i] - 1].key != key) i = (i + 1) & (slots_.size() - 1);
+    if (slots_[i] == 0) {
+      cells_.push_back({key, 0.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()});
+      slots_[i] = static_cast<std::uint32_t>(cells_.size());
+    }
+    last_ = slots_[i] - 1;
+    return cells_[last_];
+  }
+  std::size_t place_of(std::uint64_t key) const {
+    return static_cast<std::size_t>(key * 0x9E3779B97F4A7C15ULL >> 20) & (slots_.size() - 1);
+  }
+  void grow(std::size_t slots) {
+    slots_.assign(slots, 0);
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      std::size_t i = place_of(cells_[c].key);
+      while (slots_[i] != 0) i = (i + 1) & (slots_.size() - 1);
+      slots_[i] = static_cast<std::uint32_t>(c + 1);
+    }
+  }
+  std::vector<CellSums> cells_;
+  std::vector<std::uint32_t> slots_;  // 1 + place in cells_; 0: empty
+  std::size_t last_ = 0;
+};
+
+/// Two lists in order as one; cells that are in both add up.
+std::vector<CellSums> merged(const std::vector<CellSums>& a, const std::vector<CellSums>& b) {
+  std::vector<CellSums> result;
+  result.reserve(a.size() + b.size());
+  std::size_t i = 0;
+  std::size_t k = 0;
+  while (i < a.size() || k < b.size()) {
+    if (k == b.size() || (i < a.size() && a[i].key < b[k].key)) {
+      result.push_back(a[i++]);
+    } else if (i == a.size() || b[k].key < a[i].key) {
+      result.push_back(b[k++]);
+    } else {
+      result.push_back(a[i++]);
+      add(result.back(), b[k++]);
+    }
+  }
+  return result;
+}
+
+/// Pairs, pairs of pairs, ...: always in the same order.
+std::vector<CellSums> merged(std::vector<std::vector<CellSums>> lists) {
+  while (lists.size() > 1) {
+    std::vector<std::vector<CellSums>> half((lists.size() + 1) / 2);
+    parallel_for_each_index(
+        half.size(),
+        [&](std::size_t i) {
+          half[i] = 2 * i + 1 < lists.size() ? merged(lists[2 * i], lists[2 * i + 1]) : std::move(lists[2 * i]);
+        },
+        1);
+    lists = std::move(half);
+  }
+  return lists.empty() ? std::vector<CellSums>() : std::move(lists.front());
+}
+
+/// Enough of a tile: a surface through its box touches about as many cells as the box's two longer sides say.
+std::size_t enough_points(const BoundingBox& box, double cell_m) {
+  Eigen::Vector3d sides = box.sizes() / cell_m;
+  std::sort(sides.data(), sides.data() + 3);
+  return static_cast<std::size_t>(std::min(points_a_cell * (sides[2] + 1.0) * (sides[1] + 1.0), 1e9));
+}
+
+}  // namespace
+
+std::vector<CellSums> cell_sums(std::span<const Eigen::Vector3f> points, double cell_m) {
+  std::vector<std::vector<CellSums>> parts((points.size() + block_points - 1) / block_points);
+  parallel_blocks(points.size(), block_points, [&](std::size_t begin, std::size_t end) {
+    BlockSums sums;
+    for (std::size_t i = begin; i < end; ++i) sums.add(key_of(points[i], cell_m), points[i].cast<double>());
+    parts[begin / block_points] = sums.in_order();
+  });
+  return merged(std::move(parts));
+}
+
+std::vector<CellSums> cell_sums(const TileSource& source, double cell_m, double least_range_m, double most_range_m,
+                                Progress& progress) {
+  const std::size_t tiles = source.tile_count();
+  std::vector<std::vector<CellSums>> groups((tiles + tiles_at_once - 1) / tiles_at_once);
+  parallel_for_each_index(
+      groups.size(),
+      [&](std::size_t g) {
+        BlockSums sums;
+        for (std::size_t t = g * tiles_at_once; t < std::min(tiles, (g + 1) * tiles_at_once); ++t) {
+          progress.step(t, tiles);
+          for (const auto& p : source.positions(t, enough_points(source.box(t), cell_m))) {
+            const Eigen::Vector3d x = p.cast<double>();
+            const double range = x.norm();
+            if (range >= least_range_m && range <= most_range_m) sums.add(key_of(p, cell_m), x);
+          }
+        }
+        groups[g] = sums.in_order();
+      },
+      1);
+  return merged(std::move(groups));
+}
+
+std::vector<CellSums> with_double_cells(std::vector<CellSums> sums) {
+  constexpr std::uint64_t axis_mask = (std::uint64_t{1} << 21U) - 1;
+  const auto half_of = [](std::uint64_t cell) { return (cell >> 1U) + (std::uint64_t{1} << 19U); };
+  for (CellSums& cell : sums)
+    cell.key = half_of(cell.key & axis_mask) | half_of(cell.key >> 21U & axis_mask) << 21U |
+               half_of(cell.key >> 42U & axis_mask) << 42U;
+  std::stable_sort(sums.begin(), sums.end(), [](const CellSums& a, const CellSums& b) { return a.key < b.key; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (kept > 0 && sums[kept - 1].key == sums[i].key)
+      add(sums[kept - 1], sums[i]);
+    else
+      sums[kept++] = sums[i];
+  }
+  sums.resize(kept);
+  return sums;
+}
+
+}  // namespace adit

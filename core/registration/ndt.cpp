@@ -1,0 +1,94 @@
+#include "core/registration/ndt.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <utility>
+
+#include "core/registration/newton.h"
+
+namespace adit {
+namespace {
+
+/// The level whose cells are nearest in size, by ratio; those before `first` do not count.
+std::size_t level_of(const DistributionPyramid& pyramid, double cell_m, std::size_t first) {
+  const auto off = [&](std::size_t level) { return std::abs(std::log2(pyramid.levels[level].cell_m() / cell_m)); };
+  std::size_t best = first;
+  for (std::size_t level = first + 1; level < pyramid.levels.size(); ++level)
+    if (off(level) < off(best)) best = level;
+  return best;
+}
+
+/// Steps that matter in cells of this size; those of the last decide about tenths of a millimetre.
+NewtonOptions newton_options(double cell_m, bool last, int most_iterations) {
+  constexpr double share = 0.01;
+  NewtonOptions newton;
+  newton.most_iterations = most_iterations;
+  newton.longest_step_m = 0.5 * cell_m;
+  newton.least_step_m = last ? 1e-5 : share * cell_m;
+  return newton;
+}
+
+/// The translation that changes the score least, when the rotation follows (Schur complement).
+Eigen::Vector3d weakest_direction(const Matrix6d& hessian) {
+  const Eigen::Matrix3d turn = hessian.topLeftCorner<3, 3>() + 1e-9 * hessian.norm() * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d shift = hessian.bottomRightCorner<3, 3>() -
+                                hessian.bottomLeftCorner<3, 3>() * turn.ldlt().solve(hessian.topRightCorner<3, 3>());
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(shift).eigenvectors().col(0);
+}
+
+/// The second must be clearly better: where the tunnel tells nothing along itself, the guess stands.
+const NewtonResult& better(const NewtonResult& first, const NewtonResult& second) {
+  constexpr double clearly = 1.02;
+  return second.at.score < clearly * first.at.score ? second : first;
+}
+
+/// The best of the starts along the weakest direction, nearest first.
+template <typename Descend>
+NewtonResult best_along(const NewtonResult& first, double search_m, const Descend& descended) {
+  constexpr double start_spacing_m = 2.0;
+  const Eigen::Vector3d direction = weakest_direction(first.at.hessian);
+  NewtonResult best = first;
+  for (double away_m = start_spacing_m; away_m <= search_m; away_m += start_spacing_m)
+    for (const double side : {-1.0, 1.0}) {
+      Pose start = first.pose;
+      start.translation() += side * away_m * direction;
+      best = better(best, descended(start));
+    }
+  return best;
+}
+
+}  // namespace
+
+NdtAlignment ndt_align(const DistributionPyramid& target, const DistributionPyramid& source, const Pose& guess,
+                       const NdtOptions& options, Progress& progress) {
+  NdtAlignment result;
+  Pose pose = guess;
+  Pose other = guess;  // finer cells tell whether this one is better
+  const std::size_t finest = options.finest_cell_m > 0.0 ? level_of(target, options.finest_cell_m, 1) : 1;
+  const std::size_t coarsest = level_of(target, options.coarsest_cell_m, finest);
+  for (std::size_t level = coarsest + 1; level-- > finest;) {
+    progress.step(coarsest - level, coarsest - finest + 1);
+    const DistributionMap& cells = target.levels[level];
+    const auto& sources = source.levels[level_of(source, 0.5 * cells.cell_m(), 0)].distributions();
+    const auto score = [&](const Pose& at) { return ndt_score(cells, sources, at, options.score, progress); };
+    const auto descended = [&](const Pose& start) {
+      NewtonResult found =
+          descend(start, score, newton_options(cells.cell_m(), level == finest, options.most_iterations));
+      result.iterations += found.iterations;
+      return found;
+    };
+    NewtonResult found = descended(pose);
+    if (level == coarsest) {
+      other = best_along(found, options.search_m, descended).pose;
+    } else if (level + 1 == coarsest && other.matrix() != pose.matrix()) {
+      found = better(found, descended(other));
+    }
+    pose = found.pose;
+    result.target_from_source = pose;
+    result.score = found.at.weight > 0.0 ? found.at.score / found.at.weight : 0.0;
+  }
+  return result;
+}
+
+}  // namespace adit
