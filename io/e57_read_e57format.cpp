@@ -44,7 +44,7 @@ Eigen::Vector3d from_spherical(double range, double azimuth, double elevation) {
 
 std::uint8_t byte_of(double value, const E57ColourRange& range) {
   const double byte = (value - range.least) * range.to_bytes;
-  return byte > 0.0 ? static_cast<std::uint8_t>(std::min(byte, 255.0) + 0.5) : std::uint8_t{0};
+  return byte > 0.0 ? static_cast<std::uint8_t>(std::lround(std::min(byte, 255.0))) : std::uint8_t{0};
 }
 
 std::uint32_t grid_number(double value, const char* word, const std::string& where) {
