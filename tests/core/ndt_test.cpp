@@ -161,19 +161,19 @@ TEST(NdtScore, HasNoStepsWhereAPointGoesFromCellToCell) {
 
 TEST(Newton, NeverAcceptsAWorseScore) {
   const DistributionMap target = map_of(bumpy_corner(7, 40000), 1.0);
-  const auto source = map_of(bumpy_corner(8, 40000), 0.5).distributions();
+  const auto source = map_of(bumpy_corner(8, 40000), 1.0).distributions();
   Progress progress;
   std::vector<double> best;
   const auto score = [&](const Pose& pose) { return ndt_score(target, source, pose, {}, progress); };
   NewtonOptions options;
   const Random random(9);
-  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+  for (std::uint64_t trial = 0; trial < 5; ++trial) {
     const auto number = [&](std::uint64_t i) { return random.uniform(6 * trial + i, -1.0, 1.0); };
     const Pose start = make_pose(0.8 * Eigen::Vector3d(number(0), number(1), number(2)),
                                  {0.1 * number(3), 0.1 * number(4), 0.1 * number(5)});
     options.most_iterations = 0;
     double last = descend(start, score, options).at.score;
-    for (options.most_iterations = 1; options.most_iterations < 12; ++options.most_iterations) {
+    for (options.most_iterations = 1; options.most_iterations < 8; ++options.most_iterations) {
       const NewtonResult found = descend(start, score, options);
       EXPECT_LE(found.at.score, last);
       last = found.at.score;
@@ -214,7 +214,7 @@ struct SimulatedPair {
   }
 };
 
-TEST(Ndt, FindsAPairFromThreeMetresAndTenDegrees) {
+TEST(NdtSlow, FindsAPairFromThreeMetresAndTenDegrees) {
   const SimulatedPair pair;
   const Random random(17);
   for (std::uint64_t i = 0; i < 12; ++i) {
@@ -226,7 +226,7 @@ TEST(Ndt, FindsAPairFromThreeMetresAndTenDegrees) {
   }
 }
 
-TEST(Ndt, SameBytesOnAnyNumberOfThreads) {
+TEST(NdtSlow, SameBytesOnAnyNumberOfThreads) {
   std::vector<Eigen::Matrix4d> found;
   for (const std::size_t threads : {1U, 2U, 8U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
