@@ -116,7 +116,7 @@ std::vector<std::uint64_t> e57_record_places(const std::string& xml) {
   document.load_buffer(xml.data(), xml.size(), pugi::parse_minimal);  // what it cannot read, the library refuses
   std::vector<std::uint64_t> places;
   for (const pugi::xml_node scan : document.document_element().child("data3D").children())
-    places.push_back(scan.child("points").attribute("fileOffset").as_ullong());
+    if (scan.type() == pugi::node_element) places.push_back(scan.child("points").attribute("fileOffset").as_ullong());
   return places;
 }
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/registration/cell_sums.h"
+#include "core/geometry/cell_sums.h"
 
 namespace adit {
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "core/registration/newton.h"
 
@@ -63,9 +64,8 @@ NewtonResult best_along(const NewtonResult& first, double search_m, const Descen
 NdtAlignment ndt_align(const DistributionPyramid& target, const DistributionPyramid& source, const Pose& guess,
                        const NdtOptions& options, Progress& progress) {
   NdtAlignment result;
-  Pose pose = guess;
-  Pose other = guess;  // finer cells tell whether this one is better
-  const std::size_t finest = options.finest_cell_m > 0.0 ? level_of(target, options.finest_cell_m, 1) : 1;
+  std::vector<Pose> starts{guess};
+  const std::size_t finest = level_of(target, options.finest_cell_m, 1);
   const std::size_t coarsest = level_of(target, options.coarsest_cell_m, finest);
   for (std::size_t level = coarsest + 1; level-- > finest;) {
     progress.step(coarsest - level, coarsest - finest + 1);
@@ -78,14 +78,17 @@ NdtAlignment ndt_align(const DistributionPyramid& target, const DistributionPyra
       result.iterations += found.iterations;
       return found;
     };
-    NewtonResult found = descended(pose);
+    NewtonResult found = descended(starts.front());
+    for (std::size_t i = 1; i < starts.size(); ++i) found = better(found, descended(starts[i]));
+    starts = {found.pose};
     if (level == coarsest) {
-      other = best_along(found, options.search_m, descended).pose;
-    } else if (level + 1 == coarsest && other.matrix() != pose.matrix()) {
-      found = better(found, descended(other));
+      NewtonResult along = best_along(found, options.search_m, descended);
+      if (level > finest)
+        starts.push_back(along.pose);  // the next cells choose
+      else
+        found = std::move(along);
     }
-    pose = found.pose;
-    result.target_from_source = pose;
+    result.target_from_source = found.pose;
     result.score = found.at.weight > 0.0 ? found.at.score / found.at.weight : 0.0;
   }
   return result;

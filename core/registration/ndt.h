@@ -10,7 +10,9 @@ namespace adit {
 
 struct NdtOptions {
   double coarsest_cell_m = 4.0;  ///< the search begins with the target's cells of about this size
-  double finest_cell_m = 0.0;    ///< and ends with these; 0: the second finest there are
+  /// And ends with these, or the second finest there are: in smaller ones a thin, noisy scan of a smooth place tilts by
+  /// degrees at no cost to the score.
+  double finest_cell_m = 0.4;
   /// Rounds of blasting repeat every few metres, and so does the rock they leave. Starts so far along the direction
   /// that the coarsest cells know least are tried too, both ways; 0: none.
   double search_m = 4.0;

@@ -5,17 +5,12 @@
 #include <cmath>
 
 #include "core/foundation/parallel.h"
+#include "core/geometry/pose_step.h"
 
 namespace adit {
 namespace {
 
 using Jacobian = Eigen::Matrix<double, 3, 6>;
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 /// Second derivatives of a . exp([phi]x) b by phi at phi = 0.
 Eigen::Matrix3d rotation_curvature(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

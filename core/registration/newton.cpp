@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/registration/normal_equations.h"
+#include "core/geometry/pose_step.h"
 
 namespace adit {
 namespace {

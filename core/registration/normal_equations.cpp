@@ -4,15 +4,10 @@
 #include <cmath>
 
 #include "core/foundation/parallel.h"
+#include "core/geometry/pose_step.h"
 
 namespace adit {
 namespace {
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 double tukey_weight(double residual_m, double reach_m) {
   const double u = residual_m / reach_m;
@@ -71,15 +66,6 @@ NormalEquations point_to_plane_equations(const PreparedScan& target, const Prepa
     }
     return sums;
   });
-}
-
-Pose stepped(const Pose& target_from_source, const Vector6d& step) {
-  Pose next = target_from_source;
-  next.linear() = Eigen::Quaterniond(rotation_from_vector(step.head<3>()) * target_from_source.linear())
-                      .normalized()
-                      .toRotationMatrix();
-  next.translation() += step.tail<3>();
-  return next;
 }
 
 }  // namespace adit

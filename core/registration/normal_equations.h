@@ -32,7 +32,4 @@ NormalEquations point_to_plane_equations(const PreparedScan& target, const Prepa
                                          const Pose& target_from_source, double match_distance_m, double tukey_m,
                                          Progress& progress);
 
-/// The pose turned and moved by a step of the normal equations.
-Pose stepped(const Pose& target_from_source, const Vector6d& step);
-
 }  // namespace adit

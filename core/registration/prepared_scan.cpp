@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/foundation/error.h"
-#include "core/registration/cell_sums.h"
+#include "core/geometry/cell_sums.h"
 
 namespace adit {
 namespace {

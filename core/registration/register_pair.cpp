@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/foundation/parallel.h"
+#include "core/geometry/pose_step.h"
 #include "core/geometry/statistics.h"
 #include "core/registration/ndt.h"
 #include "core/registration/observability.h"

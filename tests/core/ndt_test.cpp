@@ -10,7 +10,6 @@
 #include "core/foundation/error.h"
 #include "core/foundation/random.h"
 #include "core/registration/newton.h"
-#include "core/registration/normal_equations.h"
 #include "tests/core/sample_tunnel.h"
 
 namespace adit {

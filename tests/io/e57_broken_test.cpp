@@ -67,6 +67,9 @@ TEST_F(BrokenE57, SectionsThatAreNone) {
     return refused(with_words(bytes_, "fileOffset=\"48\"", "fileOffset=\"" + place + "\""));
   };
   EXPECT_EQ(at("48"), "(read)");
+  EXPECT_EQ(refused(with_words(bytes_, "<data3D type=\"Vector\" allowHeterogeneousChildren=\"1\">",
+                               "<data3D type=\"Vector\" allowHeterogeneousChildren=\"1\"><!-- - -->")),
+            "(read)");
   EXPECT_NE(at("18446744073709551615"), "(read)");
   EXPECT_NE(at("1022"), "(read)");
   EXPECT_NE(at("0"), "(read)");
@@ -74,6 +77,9 @@ TEST_F(BrokenE57, SectionsThatAreNone) {
   tests::put_number(content, 48 + 8, std::uint64_t{1} << 40);
   EXPECT_THAT(refused(tests::with_checksums(content)),
               HasSubstr("the points' section cannot have 1099511627776 bytes"));
+  content = tests::without_checksums(bytes_);
+  tests::put_number(content, 48 + 8, bytes_.size() - 48);
+  EXPECT_THAT(refused(tests::with_checksums(content)), HasSubstr("goes beyond the file's end"));
   content = tests::without_checksums(bytes_);
   content[48] = 3;
   EXPECT_THAT(refused(tests::with_checksums(content)), HasSubstr("byte 48: no section with points begins here"));

@@ -1,4 +1,4 @@
-#include "core/registration/cell_sums.h"
+#include "core/geometry/cell_sums.h"
 
 #include <algorithm>
 #include <utility>
