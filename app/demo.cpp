@@ -8,6 +8,7 @@
 #include "core/foundation/error.h"
 #include "core/foundation/random.h"
 #include "core/job/job.h"
+#include "core/simulation/ray_cast.h"
 #include "core/simulation/scanner.h"
 #include "core/simulation/truth.h"
 #include "io/atomic_file.h"
@@ -137,7 +138,7 @@ std::vector<ControlPoint> true_control(const Demo& demo) {
 bool sees(const Demo& demo, const Pose& pose, const Eigen::Vector3d& target) {
   const Eigen::Vector3d ray = target - pose.translation();
   if (ray.norm() > 18.0) return false;
-  const auto hit = demo.tunnel.cast(pose.translation(), ray.normalized(), 45.0, {}, demo.tunnel.frames());
+  const auto hit = RayCast(demo.tunnel).first_hit(pose.translation(), ray.normalized(), 45.0, {});
   return hit && hit->range_m > ray.norm() - 0.02;
 }
 
@@ -181,7 +182,7 @@ void simulate_scan(const Demo& demo, const Pose& pose, int station, io::ScanSink
       if (block.size() == io::PointBlock::most_points) hand_out();
     }
   };
-  scan_tunnel(demo.tunnel, pose, scanner, people, take, progress);
+  scan_tunnel(std::span(&demo.tunnel, 1), pose, scanner, people, take, progress);
   hand_out();
 }
 

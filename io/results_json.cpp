@@ -61,17 +61,29 @@ json registration_json(const Results& results) {
   }
   out["pairs"] = json::array();
   for (const PairResult& pair : registration.pairs)
-    out["pairs"].push_back({{"source", pair.source},
-                            {"target", pair.target},
-                            {"pose", rows(pair.target_from_source)},
-                            {"overlap", pair.overlap},
-                            {"rms_m", number(pair.rms_m)},
-                            {"median_m", number(pair.median_m)},
-                            {"median_distance_m", number(pair.median_distance_m)},
-                            {"within_6mm", pair.within_6mm},
-                            {"sigma_mm", sigma_mm(pair.sigma)},
-                            {"undetermined", pair.undetermined},
-                            {"used", pair.used}});
+    out["pairs"].push_back(
+        {{"source", pair.source},
+         {"target", pair.target},
+         {"pose", rows(pair.target_from_source)},
+         {"overlap", pair.overlap},
+         {"rms_m", number(pair.rms_m)},
+         {"median_m", number(pair.median_m)},
+         {"median_distance_m", number(pair.median_distance_m)},
+         {"within_6mm", pair.within_6mm},
+         {"balance", {{"along", pair.balance.x()}, {"across", pair.balance.y()}, {"up", pair.balance.z()}}},
+         {"agreeing", pair.agreeing},
+         {"seen_through", pair.seen_through},
+         {"iterations", pair.iterations},
+         {"sigma_mm", sigma_mm(pair.sigma)},
+         {"undetermined", pair.undetermined},
+         {"used", pair.used}});
+  out["loops"] = json::array();
+  for (const LoopClosure& loop : registration.loops)
+    out["loops"].push_back({{"scans", loop.scans},
+                            {"before_mm", 1e3 * loop.before_m},
+                            {"before_mdeg", 1e3 * deg_from_rad(loop.before_rad)},
+                            {"after_mm", 1e3 * loop.after_m},
+                            {"after_mdeg", 1e3 * deg_from_rad(loop.after_rad)}});
   out["control"] = json::array();
   for (const ControlResidual& c : registration.control)
     out["control"].push_back({{"scan", c.scan},

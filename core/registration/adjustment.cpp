@@ -45,19 +45,6 @@ void leave_out(Adjustment& adjustment, const Suspect& suspect) {
   for (const std::size_t k : suspect.control) adjustment.control_used[k] = false;
 }
 
-/// The graph of what is used. Residuals of its result are in the order of what is used, too.
-PoseGraph used_part(const PoseGraph& graph, const Adjustment& adjustment) {
-  PoseGraph part = graph;
-  part.pairs.clear();
-  part.control.clear();
-  for (std::size_t k = 0; k < graph.pairs.size(); ++k)
-    if (adjustment.pair_used[k]) part.pairs.push_back(graph.pairs[k]);
-  for (std::size_t k = 0; k < graph.control.size(); ++k)
-    if (adjustment.control_used[k]) part.control.push_back(graph.control[k]);
-  if (part.control.empty()) part.datum = graph.datum.value_or(0);
-  return part;
-}
-
 bool enough_control(const PoseGraph& graph, const Adjustment& adjustment) {
   std::set<std::string> all, left;
   for (std::size_t k = 0; k < graph.control.size(); ++k) {
@@ -117,6 +104,18 @@ bool settle_one(const PoseGraph& graph, Adjustment& adjustment, Progress& progre
 }
 
 }  // namespace
+
+PoseGraph used_part(const PoseGraph& graph, const Adjustment& adjustment) {
+  PoseGraph part = graph;
+  part.pairs.clear();
+  part.control.clear();
+  for (std::size_t k = 0; k < graph.pairs.size(); ++k)
+    if (adjustment.pair_used[k]) part.pairs.push_back(graph.pairs[k]);
+  for (std::size_t k = 0; k < graph.control.size(); ++k)
+    if (adjustment.control_used[k]) part.control.push_back(graph.control[k]);
+  if (part.control.empty()) part.datum = graph.datum.value_or(0);
+  return part;
+}
 
 Adjustment adjusted(const PoseGraph& graph, Progress& progress) {
   Adjustment adjustment;

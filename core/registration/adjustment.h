@@ -37,6 +37,9 @@ struct Adjustment {
   std::vector<Contradiction> contradictions;
 };
 
+/// The graph of what is used: pairs and control in their order, less those left out.
+PoseGraph used_part(const PoseGraph& graph, const Adjustment& adjustment);
+
 /// Solves the graph. While observations contradict each other (a pair twenty of its own sigmas off, a target five),
 /// every suspect is left out in turn (data snooping by trial, after Baarda 1968), and the one whose absence explains
 /// most goes for good; unless another explains as much, or too little control would be left. Deterministic.

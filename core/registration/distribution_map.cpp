@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <utility>
 
 #include "core/foundation/parallel.h"
@@ -20,6 +20,10 @@ NormalDistribution distribution_of(const CellSums& sums, const DistributionOptio
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
   const double share = options.least_sigma_share * options.least_sigma_share * axes.eigenvalues()[2];
   const double least = std::max(options.point_sigma_m * options.point_sigma_m, share);
+  const Eigen::Vector3d values = axes.eigenvalues().cwiseMax(0.0);
+  result.normal = axes.eigenvectors().col(0);
+  result.thickness_m = std::sqrt(values[0]);
+  result.flat = values[0] < 0.2 * values[1] && values[1] > 0.05 * values[2];
   result.covariance =
       axes.eigenvectors() * axes.eigenvalues().cwiseMax(least).asDiagonal() * axes.eigenvectors().transpose();
   return result;
@@ -27,26 +31,25 @@ NormalDistribution distribution_of(const CellSums& sums, const DistributionOptio
 
 }  // namespace
 
-DistributionMap::DistributionMap(const std::vector<CellSums>& sums, double cell_m, const DistributionOptions& options)
-    : cell_m_(cell_m) {
+DistributionMap::DistributionMap(const std::vector<CellSums>& sums, double cell_m, const DistributionOptions& options) {
   std::vector<const CellSums*> kept;
-  for (const CellSums& cell : sums)
-    if (cell.points >= options.least_points) kept.push_back(&cell);
+  std::vector<std::uint64_t> keys;
+  for (const CellSums& cell : sums) {
+    if (cell.points < options.least_points) continue;
+    kept.push_back(&cell);
+    keys.push_back(cell.key);
+  }
   distributions_.resize(kept.size());
   parallel_for_each_index(kept.size(), [&](std::size_t i) { distributions_[i] = distribution_of(*kept[i], options); });
-  const unsigned bits = static_cast<unsigned>(std::bit_width(2 * kept.size() + 1));
-  table_.resize(std::size_t{1} << bits);
-  shift_ = 64 - bits;
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    std::uint64_t place = kept[i]->key * 0x9E3779B97F4A7C15ULL >> shift_;
-    while (table_[place & (table_.size() - 1)].slot != none) ++place;
-    table_[place & (table_.size() - 1)] = {kept[i]->key, static_cast<std::uint32_t>(i)};
-  }
-  std::size_t n = 0;
-  for (const std::uint64_t z : {~std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{1}})
-    for (const std::uint64_t y : {~std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{1}})
-      for (const std::uint64_t x : {~std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{1}})
-        neighbour_steps_[n++] = x + (y << 21U) + (z << 42U);
+  index_ = CellIndex(keys, cell_m);
+}
+
+std::size_t DistributionPyramid::level_near(double cell_m, std::size_t first) const {
+  const auto off = [&](std::size_t level) { return std::abs(std::log2(levels[level].cell_m() / cell_m)); };
+  std::size_t best = first;
+  for (std::size_t level = first + 1; level < levels.size(); ++level)
+    if (off(level) < off(best)) best = level;
+  return best;
 }
 
 DistributionPyramid distribution_pyramid(std::vector<CellSums> sums, double cell_m, double coarsest_m,

@@ -4,10 +4,9 @@
 
 #include <Eigen/Core>
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
+#include "core/geometry/cell_index.h"
 #include "core/geometry/cell_sums.h"
 
 namespace adit {
@@ -17,6 +16,9 @@ struct NormalDistribution {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();        ///< eq. 1 [m]
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< eq. 2, regularised [m2]; zero for a single point
   double points = 1.0;                                   ///< how many there are in the cell
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< of the plane through the points; either way
+  double thickness_m = 0.0;                              ///< sigma of the points about that plane, as measured
+  bool flat = false;                                     ///< the points are a piece of surface
 };
 
 struct DistributionOptions {
@@ -31,43 +33,26 @@ class DistributionMap {
  public:
   DistributionMap(const std::vector<CellSums>& sums, double cell_m, const DistributionOptions& options);
 
-  double cell_m() const { return cell_m_; }
+  double cell_m() const { return index_.cell_m(); }
   const std::vector<NormalDistribution>& distributions() const { return distributions_; }
 
   /// Calls visit(distribution) for those of the cell that holds the place and of the 26 around it, in a fixed order.
   template <typename Visit>
   void visit_near(const Eigen::Vector3d& place, const Visit& visit) const {
-    const Eigen::Vector3d cell = (place / cell_m_).array().floor() + half_cells;
-    if (!(cell.minCoeff() >= 1.0 && cell.maxCoeff() < 2.0 * half_cells - 1.0)) return;
-    const std::uint64_t key = cell_key(cell);
-    for (const std::uint64_t step : neighbour_steps_)
-      if (const std::uint32_t slot = slot_of(key + step); slot != none) visit(distributions_[slot]);
+    index_.visit_near(place, [&](std::size_t slot) { visit(distributions_[slot]); });
   }
 
  private:
-  static constexpr std::uint32_t none = 0xFFFFFFFFU;
-
-  struct Entry {
-    std::uint64_t key = ~std::uint64_t{0};
-    std::uint32_t slot = none;
-  };
-  std::uint32_t slot_of(std::uint64_t key) const {
-    for (std::uint64_t i = key * 0x9E3779B97F4A7C15ULL >> shift_;; ++i) {
-      const Entry& entry = table_[i & (table_.size() - 1)];
-      if (entry.slot == none || entry.key == key) return entry.slot;
-    }
-  }
-
-  double cell_m_;
   std::vector<NormalDistribution> distributions_;
-  std::vector<Entry> table_;  ///< open addressing, at most half full; its length is a power of two
-  unsigned shift_ = 0;
-  std::array<std::uint64_t, 27> neighbour_steps_{};
+  CellIndex index_;
 };
 
 /// One scan in cells of several sizes.
 struct DistributionPyramid {
   std::vector<DistributionMap> levels;  ///< finest first; the cells of each are twice as large as those before
+
+  /// The level whose cells are nearest in size, by ratio; those before `first` do not count.
+  std::size_t level_near(double cell_m, std::size_t first = 0) const;
 };
 
 /// From sums by cells of edge cell_m: levels of 2, 4, ... times cell_m, the last the first of coarsest_m or more.

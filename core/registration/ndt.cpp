@@ -11,15 +11,6 @@
 namespace adit {
 namespace {
 
-/// The level whose cells are nearest in size, by ratio; those before `first` do not count.
-std::size_t level_of(const DistributionPyramid& pyramid, double cell_m, std::size_t first) {
-  const auto off = [&](std::size_t level) { return std::abs(std::log2(pyramid.levels[level].cell_m() / cell_m)); };
-  std::size_t best = first;
-  for (std::size_t level = first + 1; level < pyramid.levels.size(); ++level)
-    if (off(level) < off(best)) best = level;
-  return best;
-}
-
 /// Steps that matter in cells of this size; those of the last decide about tenths of a millimetre.
 NewtonOptions newton_options(double cell_m, bool last, int most_iterations) {
   constexpr double share = 0.01;
@@ -65,12 +56,12 @@ NdtAlignment ndt_align(const DistributionPyramid& target, const DistributionPyra
                        const NdtOptions& options, Progress& progress) {
   NdtAlignment result;
   std::vector<Pose> starts{guess};
-  const std::size_t finest = level_of(target, options.finest_cell_m, 1);
-  const std::size_t coarsest = level_of(target, options.coarsest_cell_m, finest);
+  const std::size_t finest = target.level_near(options.finest_cell_m, 1);
+  const std::size_t coarsest = target.level_near(options.coarsest_cell_m, finest);
   for (std::size_t level = coarsest + 1; level-- > finest;) {
     progress.step(coarsest - level, coarsest - finest + 1);
     const DistributionMap& cells = target.levels[level];
-    const auto& sources = source.levels[level_of(source, 0.5 * cells.cell_m(), 0)].distributions();
+    const auto& sources = source.levels[source.level_near(0.5 * cells.cell_m())].distributions();
     const auto score = [&](const Pose& at) { return ndt_score(cells, sources, at, options.score, progress); };
     const auto descended = [&](const Pose& start) {
       NewtonResult found =

@@ -3,16 +3,84 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace adit {
 namespace {
 
+constexpr std::size_t directions = 6;
+
 /// Symmetric matrix with eigenvalues no smaller than floor.
-Matrix6d floored(const Matrix6d& matrix, double floor) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(0.5 * (matrix + matrix.transpose()));
+Eigen::MatrixXd floored(const Eigen::MatrixXd& matrix, double floor) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (matrix + matrix.transpose()));
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(floor).asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+/// Columns: (rotation, translation) for a metre in each direction of direction_names; turns are metres at the lever.
+Matrix6d metres_in(const Eigen::Matrix3d& axes, double lever_m) {
+  Matrix6d columns = Matrix6d::Zero();
+  columns.bottomLeftCorner<3, 3>() = axes.transpose();
+  columns.topRightCorner<3, 3>() = axes.transpose() / lever_m;
+  return columns;
+}
+
+double radius_of_gyration(std::span<const SurfaceMatch> matches) {
+  double sum = 0.0;
+  for (const SurfaceMatch& match : matches) sum += match.arm.squaredNorm();
+  return matches.empty() ? 1.0 : std::max(0.1, std::sqrt(sum / static_cast<double>(matches.size())));
+}
+
+std::vector<Eigen::Index> free_of(const HeldDirections& held) {
+  std::vector<Eigen::Index> free;
+  for (std::size_t i = 0; i < directions; ++i)
+    if (!held[i]) free.push_back(static_cast<Eigen::Index>(i));
+  return free;
+}
+
+/// Everything in metres of the six directions.
+struct Known {
+  Matrix6d hessian, noise;
+  std::vector<Matrix6d> gradient_covariances;  ///< by cubes of several sizes
+  double robust_share;                         ///< of the hessian that counts with Tukey's weights
+};
+
+/// Of the sizes of cubes that which makes the most of the errors.
+Eigen::MatrixXd covariance_of(const Known& known, const std::vector<Eigen::Index>& free) {
+  const Eigen::MatrixXd hessian = known.hessian(free, free);
+  const Eigen::MatrixXd signal =
+      floored(known.robust_share * hessian - known.noise(free, free), 1e-9 * hessian.trace());
+  const Eigen::MatrixXd inverse = signal.inverse();
+  Eigen::MatrixXd worst = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
+  for (const Matrix6d& gradient : known.gradient_covariances) {
+    const Eigen::MatrixXd covariance = inverse * gradient(free, free) * inverse;
+    if (covariance.trace() > worst.trace()) worst = covariance;
+  }
+  return worst;
+}
+
+/// A metre in one free direction, the other free ones following, and how much more than the limit allows is unknown.
+struct Weakness {
+  Vector6d direction = Vector6d::Zero();
+  double ratio = 0.0;  ///< over 1: undetermined
+};
+
+Weakness weakness_of(const Known& known, const std::vector<Eigen::Index>& free, Eigen::Index n, double sigma_m,
+                     double limit_m) {
+  const Eigen::MatrixXd hessian = known.hessian(free, free);
+  const auto size = hessian.rows();
+  const Eigen::MatrixXd regular = hessian + 1e-9 * (hessian.trace() + 1e-9) * Eigen::MatrixXd::Identity(size, size);
+  const Eigen::VectorXd column = regular.ldlt().solve(Eigen::VectorXd::Unit(size, n));
+  Weakness weakness;
+  weakness.direction(free) = column / column[n];
+  const double noise = weakness.direction.dot(known.noise * weakness.direction);
+  weakness.ratio = std::max(sigma_m / limit_m, 3.0 * noise * column[n]);
+  return weakness;
+}
+
+double& sigma_of(PoseSigma& sigma, std::size_t direction) {
+  double* const members[] = {&sigma.along_m,  &sigma.across_m,  &sigma.up_m,
+                             &sigma.roll_rad, &sigma.pitch_rad, &sigma.yaw_rad};
+  return *members[direction];
 }
 
 }  // namespace
@@ -34,33 +102,79 @@ PoseSigma sigma_in_axes(const Matrix6d& covariance, const Eigen::Matrix3d& axes)
   return {root(move(0, 0)), root(move(1, 1)), root(move(2, 2)), root(turn(0, 0)), root(turn(1, 1)), root(turn(2, 2))};
 }
 
-PairInformation judge_observability(const NormalEquations& equations, double noise_sigma_m, double spacing_m,
-                                    const Eigen::Matrix3d& axes_in_target, double undetermined_sigma_m) {
-  constexpr double independent_area_m2 = 0.25;
-  const double matches_in_one = std::max<double>(normal_neighbours, independent_area_m2 / (spacing_m * spacing_m));
-  const double scale = 1.0 / (noise_sigma_m * noise_sigma_m * matches_in_one);
-  const Matrix6d signal = floored((equations.hessian - equations.noise) * scale, 1e-3);
-  PairInformation result;
-  result.sigma = sigma_in_axes(signal.inverse(), axes_in_target);
-
-  constexpr std::array<const char*, 3> names{"along", "across", "up"};
-  const std::array<double, 3> sigmas{result.sigma.along_m, result.sigma.across_m, result.sigma.up_m};
-  Matrix6d keep = Matrix6d::Identity();
-  for (int axis = 0; axis < 3; ++axis) {
-    Vector6d direction = Vector6d::Zero();
-    direction.tail<3>() = axes_in_target.row(axis).transpose();
-    const double whole = direction.dot(equations.hessian * direction);
-    const double noise = direction.dot(equations.noise * direction);
-    const bool mostly_noise = !(whole > 3.0 * noise);
-    if (!mostly_noise && sigmas[static_cast<std::size_t>(axis)] <= undetermined_sigma_m) continue;
-    result.undetermined.emplace_back(names[static_cast<std::size_t>(axis)]);
-    result.undetermined_axes.emplace_back(direction.tail<3>());
-    keep -= direction * direction.transpose();
+Pose held_at(const Pose& to, const Pose& target_from_source, const HeldDirections& held, const Eigen::Matrix3d& axes) {
+  Eigen::Vector3d move = axes * (target_from_source.translation() - to.translation());
+  Eigen::Vector3d turn = axes * rotation_vector(target_from_source.linear() * to.linear().transpose());
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (held[i]) move[static_cast<Eigen::Index>(i)] = 0.0;
+    if (held[i + 3]) turn[static_cast<Eigen::Index>(i)] = 0.0;
   }
-  // Marginal over the undetermined directions: what is known of the others without claiming anything about these.
-  Matrix6d loose = signal.inverse();
-  for (const auto& axis : result.undetermined_axes) loose.bottomRightCorner<3, 3>() += 1e6 * axis * axis.transpose();
-  result.information = floored(keep * loose.inverse() * keep, 0.0);
+  Pose pose = to;
+  pose.linear() = rotation_from_vector(axes.transpose() * turn) * to.linear();
+  pose.translation() += axes.transpose() * move;
+  return pose;
+}
+
+Vector6d step_without(const NormalEquations& equations, const HeldDirections& held, const Eigen::Matrix3d& axes) {
+  const std::vector<Eigen::Index> free = free_of(held);
+  const Eigen::MatrixXd columns = metres_in(axes, 5.0)(Eigen::all, free);
+  const Eigen::MatrixXd hessian = columns.transpose() * equations.hessian * columns;
+  const auto size = hessian.rows();
+  const Eigen::MatrixXd damped = hessian + 1e-6 * equations.weight * Eigen::MatrixXd::Identity(size, size);
+  return -columns * damped.ldlt().solve(columns.transpose() * equations.gradient);
+}
+
+PairInformation judge_observability(std::span<const SurfaceMatch> matches, double tukey_m,
+                                    const Eigen::Matrix3d& axes_in_target, const ObservabilityLimits& limits,
+                                    const HeldDirections& held) {
+  const NormalEquations equations = normal_equations(matches, tukey_m);
+  const double lever_m = radius_of_gyration(matches);
+  const Matrix6d columns = metres_in(axes_in_target, lever_m);
+  const auto in_metres = [&](const Matrix6d& matrix) { return Matrix6d(columns.transpose() * matrix * columns); };
+  Known known{in_metres(equations.hessian),
+              in_metres(equations.noise),
+              {},
+              std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.3, 1.0)};
+  for (const double cube_m : {1.0, 2.0, 4.0})
+    known.gradient_covariances.push_back(in_metres(gradient_covariance(matches, tukey_m, cube_m)));
+  PairInformation result;
+  result.undetermined = held;
+  std::vector<Eigen::Index> free = free_of(held);
+  constexpr double unknown_m = 10.0;  // variances of 100 m2 tell nothing and keep the inverse well conditioned
+  Matrix6d covariance = Matrix6d::Zero();
+  Vector6d sigma_m = Vector6d::Constant(unknown_m);
+  const double least_variance = std::max(1e-14, limits.least_sigma_m * limits.least_sigma_m);
+  for (std::size_t i = 0; i < directions; ++i)
+    if (held[i])
+      covariance += unknown_m * unknown_m * Vector6d::Unit(static_cast<Eigen::Index>(i)) *
+                    Vector6d::Unit(static_cast<Eigen::Index>(i)).transpose();
+  while (!free.empty()) {
+    Eigen::MatrixXd of_free = covariance_of(known, free);
+    of_free.diagonal().array() += least_variance;
+    Weakness weakest;
+    std::size_t which = 0;
+    for (std::size_t n = 0; n < free.size(); ++n) {
+      const auto at = static_cast<Eigen::Index>(n);
+      const Weakness weakness =
+          weakness_of(known, free, at, std::sqrt(std::max(of_free(at, at), 0.0)), limits.undetermined_sigma_m);
+      if (weakness.ratio > weakest.ratio) {
+        weakest = weakness;
+        which = n;
+      }
+    }
+    if (weakest.ratio <= 1.0) {
+      covariance(free, free) += of_free;
+      sigma_m(free) = of_free.diagonal().cwiseMax(0.0).cwiseSqrt();
+      break;
+    }
+    result.undetermined[static_cast<std::size_t>(free[which])] = true;
+    covariance += unknown_m * unknown_m * weakest.direction * weakest.direction.transpose();
+    free.erase(free.begin() + static_cast<std::ptrdiff_t>(which));
+  }
+  for (std::size_t i = 0; i < directions; ++i)
+    sigma_of(result.sigma, i) = sigma_m[static_cast<Eigen::Index>(i)] / (i < 3 ? 1.0 : lever_m);
+  const Matrix6d back = columns.inverse();
+  result.information = back.transpose() * covariance.inverse() * back;
   return result;
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 // Which directions do the clouds determine? Covariance in tunnel axes.
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "core/geometry/pose.h"
-#include "core/registration/normal_equations.h"
 #include "core/registration/registration.h"
+#include "core/registration/surface_match.h"
 
 namespace adit {
 
@@ -16,21 +17,37 @@ Eigen::Matrix3d tunnel_axes(const Eigen::Vector3d& axis_direction);
 /// Standard deviations in tunnel axes of a 6x6 covariance of (rotation, translation) in the frame of the axes.
 PoseSigma sigma_in_axes(const Matrix6d& covariance, const Eigen::Matrix3d& axes);
 
+/// The six ways a pose moves in a tunnel.
+inline constexpr std::array<const char*, 6> direction_names{"along", "across", "up", "roll", "pitch", "yaw"};
+/// True for those (by number in direction_names) that are not moved.
+using HeldDirections = std::array<bool, 6>;
+
+/// The pose moved to `to` in the held directions. Axes: rows as of tunnel_axes, in the target's frame.
+Pose held_at(const Pose& to, const Pose& target_from_source, const HeldDirections& held, const Eigen::Matrix3d& axes);
+
+/// The Gauss-Newton step of (rotation, translation) that leaves the held directions alone.
+Vector6d step_without(const NormalEquations& equations, const HeldDirections& held, const Eigen::Matrix3d& axes);
+
 /// Information of a pair about (rotation [rad], translation [m]) in the target's frame at the source's origin, and the
 /// directions in which it has none.
 struct PairInformation {
-  Matrix6d information = Matrix6d::Zero();         ///< zero along undetermined directions
-  PoseSigma sigma;                                 ///< before anything is held
-  std::vector<std::string> undetermined;           ///< "along", "across", "up"
-  std::vector<Eigen::Vector3d> undetermined_axes;  ///< unit, target's frame
+  Matrix6d information = Matrix6d::Zero();  ///< next to nothing along undetermined directions
+  PoseSigma sigma;                          ///< 10 m and more in undetermined directions: no number the clouds gave
+  HeldDirections undetermined{};
 };
 
-/// The hessian less its noise part, over the noise variance of a residual. Neighbouring points share their plane and
-/// the scanner's own slow errors, so that a quarter of a square metre of surface (and no less than `normal_neighbours`
-/// matches) is counted as one independent match, whatever the spacing. A direction is undetermined when its sigma
-/// (rotation eliminated by the Schur complement) exceeds the limit, or when less than two thirds of its hessian are
-/// more than noise.
-PairInformation judge_observability(const NormalEquations& equations, double noise_sigma_m, double spacing_m,
-                                    const Eigen::Matrix3d& axes_in_target, double undetermined_sigma_m);
+struct ObservabilityLimits {
+  double undetermined_sigma_m = 0.02;
+  double least_sigma_m = 0.0;  ///< in each direction, beside what is measured
+};
+
+/// Covariance = S^-1 B S^-1 (White 1980) with S the hessian for Tukey's weights less its noise part and B the measured
+/// covariance of the gradient, by cubes of 1, 2 or 4 m, whichever says most: surfaces may be bent by a scanner. A
+/// direction is undetermined when its sigma, all others following (Schur complement), exceeds the limit (rotations: on
+/// the radius of gyration of the matches), or when what is left of its hessian then is not three times what noise alone
+/// makes. The weakest is held first, the others are judged without it. held: directions that are held already.
+PairInformation judge_observability(std::span<const SurfaceMatch> matches, double tukey_m,
+                                    const Eigen::Matrix3d& axes_in_target, const ObservabilityLimits& limits,
+                                    const HeldDirections& held);
 
 }  // namespace adit

@@ -32,7 +32,8 @@ struct PoseGraph {
   std::vector<GraphPair> pairs;
   std::vector<GraphControl> control;
   std::optional<std::size_t> datum;  ///< this node does not move; needed when there is no control
-  double guess_sigma_m = 0.5;        ///< every node is also held, loosely, at its starting value
+  std::vector<bool> guessed;         ///< nodes held, loosely, at their starting value; those beyond its end are, too
+  double guess_sigma_m = 0.5;
   double guess_sigma_rad = 0.035;
   double control_sigma_m = 0.002;
   bool with_covariance = true;  ///< false: for trials, which need none

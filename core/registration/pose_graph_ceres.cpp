@@ -105,11 +105,14 @@ struct Problem {
 
 void build(Problem& problem, const PoseGraph& graph) {
   problem.blocks.assign(graph.local_from_scan.size(), Block{});
-  for (auto& block : problem.blocks) {
+  constexpr double hardly = 100.0;  // a node that nobody guessed is held by this much less, for the equations' sake
+  for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
+    auto& block = problem.blocks[i];
+    const double looser = i < graph.guessed.size() && !graph.guessed[i] ? hardly : 1.0;
     problem.ceres.AddParameterBlock(block.data(), 6);
-    problem.ceres.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<GuessCost, 6, 6>(new GuessCost{graph.guess_sigma_rad, graph.guess_sigma_m}),
-        nullptr, block.data());
+    problem.ceres.AddResidualBlock(new ceres::AutoDiffCostFunction<GuessCost, 6, 6>(
+                                       new GuessCost{looser * graph.guess_sigma_rad, looser * graph.guess_sigma_m}),
+                                   nullptr, block.data());
   }
   for (const GraphPair& pair : graph.pairs) {
     const PairCost cost{graph.local_from_scan[pair.target], graph.local_from_scan[pair.source], pair.target_from_source,

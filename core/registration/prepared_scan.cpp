@@ -1,5 +1,10 @@
 #include "core/registration/prepared_scan.h"
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/foundation/error.h"
@@ -10,16 +15,38 @@ namespace {
 
 constexpr std::size_t enough_points = 20000;
 constexpr double coarsest_cell_m = 10.0;  // as far as options.registration.cell_m goes
+constexpr double unlimited_range_m = 1e8;
+constexpr std::size_t piece_sizes = 4;
+constexpr double pieces_coarser = 8.0;
+constexpr double points_a_piece = 1.7;  // smaller pieces of fewer points do worse than larger ones
+
+Eigen::Vector3d least_faced(const DistributionMap& cells) {
+  Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
+  for (const NormalDistribution& cell : cells.distributions())
+    if (cell.flat) facing += cell.normal * cell.normal.transpose();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(facing).eigenvectors().col(0);
+}
+
+double mean_points(const std::vector<CellSums>& sums) {
+  double all = 0.0;
+  for (const CellSums& cell : sums) all += cell.points;
+  return all / static_cast<double>(std::max<std::size_t>(1, sums.size()));
+}
 
 }  // namespace
+
+const SurfaceMap& PreparedScan::surface(double size_m) const {
+  const auto off = [&](const SurfaceMap& map) { return std::abs(std::log2(map.cell_m() / size_m)); };
+  return *std::min_element(surfaces.begin(), surfaces.end(),
+                           [&](const SurfaceMap& a, const SurfaceMap& b) { return off(a) < off(b); });
+}
 
 PreparedScan prepare_scan(const std::string& name, const TileSource& source, double spacing_m, double least_range_m,
                           double most_range_m, Progress& progress) {
   PreparedScan scan;
   scan.name = name;
-  Progress thinning = progress.part(0.5, "");
   const auto summed = [&] {
-    std::vector<CellSums> sums = cell_sums(source, scan.spacing_m, least_range_m, most_range_m, thinning);
+    std::vector<CellSums> sums = cell_sums(source, scan.spacing_m, least_range_m, most_range_m, progress);
     scan.points.clear();
     for (const CellSums& cell : sums) scan.points.push_back(cell.mean().cast<float>());
     return sums;
@@ -35,13 +62,17 @@ PreparedScan prepare_scan(const std::string& name, const TileSource& source, dou
     throw Error("only " + std::to_string(scan.points.size()) + " places remain of this scan at a spacing of " +
                     std::to_string(spacing_m) + " m",
                 "scan " + name, "check the units of the file (metres are needed) or lower registration.spacing_m");
-  scan.pyramid = distribution_pyramid(std::move(sums), scan.spacing_m, coarsest_cell_m, {});
-  scan.tree = std::make_shared<const NearestNeighbours>(scan.points);
-  Progress planes = progress.part(0.5, "");
-  Eigen::Vector3f inside = Eigen::Vector3f::Zero();
-  if (most_range_m > 1e8)  // where the scanner stood is unknown: the middle of a tunnel's points lies inside it
-    for (const auto& p : scan.points) inside += p / static_cast<float>(scan.points.size());
-  scan.normals = surface_normals(scan.points, *scan.tree, inside, planes);
+  scan.pyramid = distribution_pyramid(sums, scan.spacing_m, coarsest_cell_m, {});
+  const std::span<const DistributionMap> planes(scan.pyramid.levels);
+  scan.piece_m = scan.spacing_m * pieces_coarser;
+  for (std::size_t size = 0; size < piece_sizes; ++size) {
+    const double cell_m = scan.spacing_m * static_cast<double>(std::size_t{1} << size);
+    if (size > 0) sums = with_double_cells(std::move(sums));
+    if (mean_points(sums) >= points_a_piece) scan.piece_m = std::min(scan.piece_m, cell_m);
+    scan.surfaces.emplace_back(sums, cell_m, planes.subspan(size, 2));
+  }
+  if (most_range_m < unlimited_range_m) scan.ranges = RangeImage(scan.points);
+  scan.axis = least_faced(scan.pyramid.levels[scan.pyramid.level_near(0.4)]);
   return scan;
 }
 

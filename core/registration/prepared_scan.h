@@ -1,31 +1,36 @@
 #pragma once
-// A scan made ready for matching: even subsample, search tree, normals, normal distributions.
+// A scan made ready for matching: even subsample, pieces of surface, normal distributions, what the scanner saw
+// through.
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/foundation/progress.h"
-#include "core/geometry/nearest_neighbours.h"
-#include "core/geometry/normals.h"
 #include "core/geometry/tile_source.h"
 #include "core/registration/distribution_map.h"
+#include "core/registration/free_space.h"
+#include "core/registration/surface_map.h"
 
 namespace adit {
 
 /// Scan frame throughout.
 struct PreparedScan {
   std::string name;
-  double spacing_m = 0.0;  ///< of the points
-  std::vector<Eigen::Vector3f> points;
-  std::vector<SurfaceNormal> normals;
-  std::shared_ptr<const NearestNeighbours> tree;
-  DistributionPyramid pyramid;  ///< from cells of twice the spacing on, of all points that were read
+  double spacing_m = 0.0;               ///< of the points
+  std::vector<Eigen::Vector3f> points;  ///< even subsample
+  DistributionPyramid pyramid;          ///< from cells of twice the spacing on, of all points that were read
+  std::vector<SurfaceMap> surfaces;     ///< pieces of the spacing's size, twice and four times as large
+  double piece_m = 0.0;                 ///< size of the finest pieces that hold two points each or so
+  RangeImage ranges;                    ///< of nothing where the file does not say where the scanner stood
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit direction that the fewest walls face: along a tunnel
+
+  /// The pieces whose size is nearest, by ratio.
+  const SurfaceMap& surface(double size_m) const;
 };
 
 /// Points at an even spacing (halved, twice at most, while a scan of a small room leaves fewer than 20,000 of them),
-/// ranges from least to most; the scanner at the origin sees every normal's face (with no limit on ranges, the middle
-/// of the points does: where the scanner stood is unknown then). Throws Error when fewer than 500 points remain.
+/// ranges from least to most; with no limit on ranges (1e9) the scanner does not stand at the origin. Throws Error when
+/// fewer than 500 points remain.
 PreparedScan prepare_scan(const std::string& name, const TileSource& source, double spacing_m, double least_range_m,
                           double most_range_m, Progress& progress);
 

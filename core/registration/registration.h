@@ -16,15 +16,14 @@
 namespace adit {
 
 struct RegistrationOptions {
-  double spacing_m = 0.10;         ///< even subsample used for matching
-  double cell_m = 4.0;             ///< coarsest cells of the normal distributions transform; finer ones follow
-  double match_distance_m = 0.30;  ///< farthest pair of points of the last refinement
-  double pair_distance_m = 35.0;   ///< stations farther apart are not paired
-  double least_overlap = 0.15;     ///< pairs with less overlap are not used
-  double guess_sigma_m = 0.5;      ///< how far guesses may be off (one sigma)
+  double spacing_m = 0.10;        ///< even subsample used for matching
+  double cell_m = 4.0;            ///< coarsest cells of the normal distributions transform; finer ones follow
+  double pair_distance_m = 35.0;  ///< stations farther apart are not paired
+  double least_overlap = 0.15;    ///< pairs with less overlap are not used
+  double guess_sigma_m = 0.5;     ///< how far guesses may be off (one sigma)
   double guess_sigma_deg = 2.0;
   double control_sigma_m = 0.002;      ///< of a target against its control point, per axis
-  double point_sigma_m = 0.005;        ///< least noise assumed for matched surfaces
+  double pair_sigma_m = 0.0002;        ///< least sigma of a pair: what a scanner bends and no overlap shows
   double undetermined_sigma_m = 0.02;  ///< a direction weaker than this is named and held at its prior
 };
 
@@ -32,14 +31,14 @@ template <typename Visitor>
 void describe(Visitor& v, RegistrationOptions& o) {
   v.number("spacing_m", o.spacing_m, "m", 0.01, 1.0, "even subsample used for matching");
   v.number("cell_m", o.cell_m, "m", 0.2, 10.0, "coarsest cells of the normal distributions transform");
-  v.number("match_distance_m", o.match_distance_m, "m", 0.02, 2.0, "farthest pair of points of the last refinement");
   v.number("pair_distance_m", o.pair_distance_m, "m", 1.0, 200.0, "stations farther apart are not paired");
   v.number("least_overlap", o.least_overlap, "", 0.01, 0.95, "pairs with less overlap are not used");
   v.number("guess_sigma_m", o.guess_sigma_m, "m", 0.001, 10.0, "how far guessed positions may be off (one sigma)");
   v.number("guess_sigma_deg", o.guess_sigma_deg, "deg", 0.01, 20.0,
            "how far guessed directions may be off (one sigma)");
   v.number("control_sigma_m", o.control_sigma_m, "m", 0.0001, 0.1, "noise of a target against its control point");
-  v.number("point_sigma_m", o.point_sigma_m, "m", 0.0005, 0.1, "least noise assumed for matched surfaces");
+  v.number("pair_sigma_m", o.pair_sigma_m, "m", 0.0, 0.1,
+           "least sigma of a pair: what a scanner bends and no overlap shows");
   v.number("undetermined_sigma_m", o.undetermined_sigma_m, "m", 0.002, 1.0,
            "a direction weaker than this is named and held at its prior");
 }
@@ -72,9 +71,14 @@ struct PairResult {
   double median_m = 0.0;           ///< median absolute point-to-plane residual
   double median_distance_m = 0.0;  ///< median distance of nearest points in the overlap
   double within_6mm = 0.0;         ///< share of residuals under 6 mm
+  Eigen::Vector3d balance = Eigen::Vector3d::Zero();  ///< how much of the overlap faces along, across and up: sums to 1
+  double agreeing = 0.0;  ///< share of either scan's points on the other's surface, where that shows one or saw through
+  double seen_through = 0.0;  ///< share of them where the other scanner saw through
+  int iterations = 0;         ///< of the normal distributions transform
   PoseSigma sigma;
-  std::vector<std::string> undetermined;  ///< "along", "across", "up": not known from the clouds, held at the guess
-  bool used = true;                       ///< false when it overlaps too little or the adjustment found it wrong
+  /// Of "along", "across", "up", "roll", "pitch", "yaw" those that the clouds do not tell; held at the guess.
+  std::vector<std::string> undetermined;
+  bool used = true;  ///< false when it overlaps too little or the adjustment found it wrong
   Matrix6d information =
       Matrix6d::Zero();  ///< of (rotation [rad], translation [m]) in the target's frame at the source's origin
 };
@@ -89,11 +93,21 @@ struct PlacedScan {
   std::vector<std::string> undetermined;
 };
 
+/// Pairs around a loop of scans: what their transforms leave open, each pair alone and after all were refined together.
+struct LoopClosure {
+  std::vector<std::string> scans;
+  double before_m = 0.0;
+  double before_rad = 0.0;
+  double after_m = 0.0;
+  double after_rad = 0.0;
+};
+
 struct RegistrationResult {
   bool accepted =
       false;  ///< no finding needs a decision: every scan placed, every direction determined, nothing contradicts
   std::vector<PlacedScan> scans;
   std::vector<PairResult> pairs;
+  std::vector<LoopClosure> loops;
   std::vector<ControlResidual> control;
   double control_rms_m = 0.0;
   /// How well the whole survey stands in the site frame, beside the sigmas of the scans, which are relative to the

@@ -4,11 +4,9 @@
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/design/design_tunnel.h"
-#include "core/profiling/tunnel_frames.h"
 
 namespace adit {
 
@@ -57,17 +55,6 @@ class RockTunnel {
     Surface surface = Surface::rock;
   };
   Nearness nearness(const TunnelPoint& point, const std::vector<Eigen::Vector2d>& people) const;
-
-  /// First surface along a ray, or nothing within the range or out of the open end.
-  struct Hit {
-    double range_m = 0.0;
-    double incidence_cosine = 0.0;
-    Surface surface = Surface::rock;
-  };
-  std::optional<Hit> cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, double most_range_m,
-                          const std::vector<Eigen::Vector2d>& people, const TunnelFrames& frames) const;
-  /// For cast(): made once for many rays; this tunnel must outlive them.
-  TunnelFrames frames() const;
 
  private:
   void fill_grid();

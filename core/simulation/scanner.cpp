@@ -7,6 +7,7 @@
 #include "core/foundation/angle.h"
 #include "core/foundation/parallel.h"
 #include "core/foundation/random.h"
+#include "core/simulation/ray_cast.h"
 
 namespace adit {
 namespace {
@@ -55,19 +56,18 @@ struct Echo {
 };
 
 struct Shot {
-  const RockTunnel& tunnel;
+  const RayCast& rays;
   const Pose& design_from_scan;
   const ScannerOptions& options;
   const std::vector<Eigen::Vector2d>& people;
   Random random;
-  TunnelFrames frames;
 
   /// What the scanner measures of a pulse; empty when nothing comes back.
   std::optional<Echo> echo(std::uint64_t pulse, double azimuth, double elevation) const {
     const Eigen::Vector3d true_direction = along(azimuth + options.angle_sigma_rad * random.normal(4 * pulse),
                                                  elevation + options.angle_sigma_rad * random.normal(4 * pulse + 1));
-    const auto hit = tunnel.cast(design_from_scan.translation(), design_from_scan.linear() * true_direction,
-                                 options.most_range_m, people, frames);
+    const auto hit = rays.first_hit(design_from_scan.translation(), design_from_scan.linear() * true_direction,
+                                    options.most_range_m, people);
     if (!hit || hit->range_m < options.least_range_m) return std::nullopt;
     const double brightness =
         std::min(1.0, albedo(hit->surface) * hit->incidence_cosine * std::min(1.0, std::pow(8.0 / hit->range_m, 1.5)) +
@@ -81,12 +81,13 @@ struct Shot {
 
 }  // namespace
 
-void scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const ScannerOptions& options,
+void scan_tunnel(std::span<const RockTunnel> tunnels, const Pose& design_from_scan, const ScannerOptions& options,
                  const std::vector<Eigen::Vector2d>& people, const std::function<void(const PointCloud&)>& take,
                  Progress& progress) {
   constexpr std::size_t columns_at_once = 128;
   const Raster raster = raster_of(options);
-  const Shot shot{tunnel, design_from_scan, options, people, Random(options.seed, 77), tunnel.frames()};
+  const RayCast rays(tunnels);
+  const Shot shot{rays, design_from_scan, options, people, Random(options.seed, 77)};
   const double turn = 2.0 * pi / static_cast<double>(raster.columns);
   for (std::size_t first = 0; first < raster.columns; first += columns_at_once) {
     std::vector<PointCloud> columns(std::min(columns_at_once, raster.columns - first));
@@ -111,11 +112,11 @@ void scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const S
   }
 }
 
-PointCloud scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const ScannerOptions& options,
+PointCloud scan_tunnel(std::span<const RockTunnel> tunnels, const Pose& design_from_scan, const ScannerOptions& options,
                        const std::vector<Eigen::Vector2d>& people, Progress& progress) {
   PointCloud scan;
   scan_tunnel(
-      tunnel, design_from_scan, options, people, [&](const PointCloud& part) { append(scan, part); }, progress);
+      tunnels, design_from_scan, options, people, [&](const PointCloud& part) { append(scan, part); }, progress);
   return scan;
 }
 

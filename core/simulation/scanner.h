@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/foundation/progress.h"
@@ -24,13 +25,18 @@ struct ScannerOptions {
 };
 
 /// One scan in its own frame: x forward, z up along the standing axis, column by column. intensity in [0, 1]. Handed to
-/// `take` a few columns at a time, in order: memory does not grow with the scan.
-void scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const ScannerOptions& options,
+/// `take` a few columns at a time, in order: memory does not grow with the scan. tunnels: those of a RayCast; frame:
+/// theirs.
+void scan_tunnel(std::span<const RockTunnel> tunnels, const Pose& design_from_scan, const ScannerOptions& options,
                  const std::vector<Eigen::Vector2d>& people, const std::function<void(const PointCloud&)>& take,
                  Progress& progress);
 
 /// The same in memory.
-PointCloud scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const ScannerOptions& options,
+PointCloud scan_tunnel(std::span<const RockTunnel> tunnels, const Pose& design_from_scan, const ScannerOptions& options,
                        const std::vector<Eigen::Vector2d>& people, Progress& progress);
+inline PointCloud scan_tunnel(const RockTunnel& tunnel, const Pose& design_from_scan, const ScannerOptions& options,
+                              const std::vector<Eigen::Vector2d>& people, Progress& progress) {
+  return scan_tunnel(std::span(&tunnel, 1), design_from_scan, options, people, progress);
+}
 
 }  // namespace adit

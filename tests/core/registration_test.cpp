@@ -7,7 +7,7 @@
 #include "core/foundation/error.h"
 #include "core/registration/observability.h"
 #include "core/registration/pose_graph.h"
-#include "tests/core/sample_tunnel.h"
+#include "tests/core/sample_mine.h"
 
 namespace adit {
 namespace {
@@ -122,16 +122,18 @@ TEST(RegistrationSlow, ControlDeterminesWhatACloudCannot) {
   EXPECT_LT(result.control_rms_m, 0.002);
 }
 
-TEST(Registration, AScanWithoutGuessAndTargetsIsSaidNotGuessed) {
+TEST(Registration, AScanOfAnotherTunnelIsSaidNotGuessed) {
   const RockTunnel rock = sample_rock();
+  const SampleMine elsewhere = sample_mine(MineKind::straight, 9, 2);
   const Pose pose = station(rock.design(), 36.0, 10.0);
-  ScanToPlace lost = scan_to_place("lost", scan_at(rock, pose, 4, 20000), pose);
-  lost.local_from_scan_guess.reset();
+  ScannerOptions scanner;
+  scanner.pulses = 20000;
   Progress progress;
-  RegistrationOptions options;
-  options.spacing_m = 0.2;
+  ScanToPlace lost =
+      scan_to_place("lost", scan_tunnel(elsewhere.tunnels, elsewhere.stations[0], scanner, {}, progress), pose);
+  lost.local_from_scan_guess.reset();
   const RegistrationResult result = register_scans({scan_to_place("A", scan_at(rock, pose, 1, 20000), pose), lost},
-                                                   context_along(rock.design()), options, progress);
+                                                   context_along(rock.design()), {}, progress);
   EXPECT_FALSE(result.scans[1].placed);
   EXPECT_EQ(result.scans[1].placed_by, "not placed");
   EXPECT_FALSE(result.accepted);

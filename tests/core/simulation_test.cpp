@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/profiling/overbreak.h"
+#include "core/simulation/ray_cast.h"
+#include "tests/core/sample_mine.h"
 #include "tests/core/sample_tunnel.h"
 
 namespace adit {
@@ -77,19 +79,47 @@ TEST(Scanner, PointsWithoutNoiseLieOnTheRock) {
 TEST(Scanner, RigAndDuctHideWhatIsBehind) {
   const RockTunnel rock = sample_rock(150.0, true);
   const Pose pose = station(rock.design(), 55.0, 0.0);
-  const TunnelFrames frames = rock.frames();
-  std::size_t rig = 0, duct = 0, rays = 0;
+  const RayCast rays(rock);
+  std::size_t rig = 0, duct = 0, hits = 0;
   for (double a = 0.0; a < 2.0 * pi; a += 0.01)
     for (double e = -0.6; e < 1.2; e += 0.02) {
       const Eigen::Vector3d d(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
-      const auto hit = rock.cast(pose.translation(), d, 45.0, {}, frames);
+      const auto hit = rays.first_hit(pose.translation(), d, 45.0, {});
       if (!hit) continue;
-      ++rays;
+      ++hits;
       rig += hit->surface == Surface::rig;
       duct += hit->surface == Surface::duct;
     }
-  EXPECT_GT(rig, rays / 400);
-  EXPECT_GT(duct, rays / 400);
+  EXPECT_GT(rig, hits / 400);
+  EXPECT_GT(duct, hits / 400);
+}
+
+TEST(Scanner, LooksFromATunnelIntoItsBranch) {
+  const SampleMine mine = sample_mine(MineKind::junction, 3, 4);
+  ASSERT_EQ(mine.tunnels.size(), 2U);
+  ScannerOptions options;
+  options.pulses = 20000;
+  options.range_sigma_m = options.angle_sigma_rad = options.dropout = 0.0;
+  Progress progress;
+  std::size_t in_branch = 0, all = 0, on_rock = 0;
+  for (const Pose& pose : mine.stations) {
+    const PointCloud cloud = scan_tunnel(mine.tunnels, pose, options, {}, progress);
+    for (const auto& p : cloud.points) {
+      double value = -1e9;
+      bool beside = false;
+      for (const RockTunnel& rock : mine.tunnels) {
+        const auto at = rock.design().alignment().to_tunnel(pose * p.cast<double>());
+        if (!at || at->s_m < rock.options().from_m) continue;
+        value = std::max(value, rock.nearness(*at, {}).value_m);
+        beside = &rock != &mine.tunnels.front() && at->s_m > 8.0;
+      }
+      ++all;
+      if (std::abs(value) < 5e-4) ++on_rock;
+      if (beside) ++in_branch;
+    }
+  }
+  EXPECT_GT(in_branch, all / 20);
+  EXPECT_GT(static_cast<double>(on_rock), 0.97 * static_cast<double>(all));
 }
 
 TEST(Scanner, SameSeedSamePoints) {

@@ -1,0 +1,60 @@
+#include "core/registration/joint_refinement.h"
+
+#include <algorithm>
+
+#include "core/foundation/parallel.h"
+#include "core/registration/observability.h"
+#include "core/registration/register_pair.h"
+
+namespace adit {
+namespace {
+
+constexpr int most_turns = 3;
+constexpr double still_m = 1e-5;
+
+HeldDirections held_directions(const std::vector<std::string>& undetermined) {
+  HeldDirections held{};
+  for (std::size_t i = 0; i < held.size(); ++i)
+    held[i] = std::find(undetermined.begin(), undetermined.end(), direction_names[i]) != undetermined.end();
+  return held;
+}
+
+double farthest_move_m(const PoseGraphResult& before, const PoseGraphResult& after) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < before.local_from_scan.size(); ++i)
+    farthest = std::max(farthest, distance_between_m(before.local_from_scan[i], after.local_from_scan[i]));
+  return farthest;
+}
+
+}  // namespace
+
+JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustment, const std::vector<Node>& nodes,
+                               const std::vector<PairResult>& pairs, const RegistrationContext& context,
+                               Progress& progress) {
+  JointRefinement joint{used_part(graph, adjustment), adjustment.solved};
+  std::vector<HeldDirections> held;
+  for (const PairResult& pair : pairs)
+    if (pair.used) held.push_back(held_directions(pair.undetermined));
+  for (int turn = 0; turn < most_turns; ++turn) {
+    progress.step(static_cast<std::size_t>(turn), most_turns);
+    parallel_for_each_index(
+        joint.graph.pairs.size(),
+        [&](std::size_t k) {
+          GraphPair& pair = joint.graph.pairs[k];
+          const Node& target = nodes[pair.target];
+          const Pose now = joint.solved.local_from_scan[pair.target].inverse() * joint.solved.local_from_scan[pair.source];
+          const Eigen::Vector3d axis = target.start.linear().transpose() * axis_at(context, target, target.start);
+          if (const auto asked = one_step(*target.prepared, *nodes[pair.source].prepared, now, held[k],
+                                          tunnel_axes(axis), progress))
+            pair.target_from_source = *asked;
+        },
+        1);
+    PoseGraphResult solved = solve_pose_graph(joint.graph, progress);
+    const double moved_m = farthest_move_m(joint.solved, solved);
+    joint.solved = std::move(solved);
+    if (moved_m < still_m) break;
+  }
+  return joint;
+}
+
+}  // namespace adit

@@ -1,0 +1,114 @@
+#include "core/registration/nodes.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "core/foundation/error.h"
+#include "core/registration/placement.h"
+
+namespace adit {
+namespace {
+
+constexpr double least_range_m = 0.6;
+constexpr double most_range_m = 45.0;
+
+std::map<std::string, Eigen::Vector3d> control_by_id(const RegistrationContext& context) {
+  std::map<std::string, Eigen::Vector3d> by_id;
+  for (const auto& point : context.control) by_id[point.id] = point.position;
+  return by_id;
+}
+
+/// Where a scan stands before any other is looked at: its guess, or the rigid fit of its targets to control.
+std::optional<Node> known_node(const ScanToPlace& scan, const std::vector<GraphControl>& control) {
+  Node node;
+  if (scan.local_from_scan_guess) {
+    node.start = *scan.local_from_scan_guess;
+    node.by = Node::By::guess;
+    return node;
+  }
+  std::vector<Eigen::Vector3d> seen, points;
+  for (const GraphControl& one : control) {
+    seen.push_back(one.in_scan);
+    points.push_back(one.in_local);
+  }
+  const auto fit = fit_rigid(seen, points);
+  if (!fit) return std::nullopt;
+  node.start = *fit;
+  node.by = Node::By::control;
+  return node;
+}
+
+}  // namespace
+
+void check_targets(const std::vector<ScanToPlace>& scans, const RegistrationContext& context) {
+  if (scans.empty()) throw Error("there is no scan to place", "scans", "name at least one scan in the job");
+  std::set<std::string> names;
+  for (const auto& scan : scans) names.insert(scan.name);
+  const auto by_id = control_by_id(context);
+  for (const auto& target : context.targets) {
+    if (names.count(target.scan) == 0)
+      throw Error("target " + target.id + " belongs to scan \"" + target.scan + "\", which the job does not have",
+                  "targets", "use the names of the job's scans");
+  }
+  for (const auto& target : context.targets) {
+    if (by_id.count(target.id) == 0)
+      throw Error("target " + target.id + " of scan " + target.scan + " has no control point", "targets",
+                  "add " + target.id + " to the control file or remove the target");
+  }
+}
+
+std::vector<GraphControl> control_of(const std::string& scan, const RegistrationContext& context) {
+  const auto by_id = control_by_id(context);
+  std::vector<GraphControl> control;
+  for (const auto& target : context.targets)
+    if (target.scan == scan) control.push_back({0, target.id, target.position, by_id.at(target.id)});
+  return control;
+}
+
+std::vector<PreparedScan> prepare_scans(const std::vector<ScanToPlace>& scans, const RegistrationOptions& options,
+                                        Progress& progress) {
+  std::vector<PreparedScan> prepared;
+  for (const ScanToPlace& scan : scans) {
+    Progress part = progress.part(1.0 / static_cast<double>(scans.size()), "preparing scan " + scan.name);
+    prepared.push_back(prepare_scan(scan.name, *scan.points, options.spacing_m,
+                                    scan.scanner_at_origin ? least_range_m : 0.0,
+                                    scan.scanner_at_origin ? most_range_m : 1e9, part));
+  }
+  return prepared;
+}
+
+std::vector<Node> starting_nodes(const std::vector<ScanToPlace>& scans, const std::vector<PreparedScan>& prepared,
+                                 const RegistrationContext& context, const RegistrationOptions& options,
+                                 Findings& findings, Progress& progress) {
+  std::vector<std::optional<Node>> known;
+  std::vector<std::optional<Pose>> poses;
+  for (const ScanToPlace& scan : scans) {
+    known.push_back(known_node(scan, control_of(scan.name, context)));
+    poses.push_back(known.back() ? std::optional<Pose>(known.back()->start) : std::nullopt);
+  }
+  const std::vector<StartingPlace> places = place_scans(prepared, poses, options, progress);
+  std::vector<Node> nodes;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (!places[i].local_from_scan) {
+      findings.push_back({Severity::decision, "scan " + scans[i].name,
+                          "not placed: it has no guess and too few targets, and " + places[i].why_not,
+                          "give it a pose in job.json, survey three targets, or scan from a station between"});
+      continue;
+    }
+    Node node = known[i].value_or(Node{});
+    node.scan = i;
+    node.prepared = &prepared[i];
+    node.start = *places[i].local_from_scan;
+    node.control = control_of(scans[i].name, context);
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+Eigen::Vector3d axis_at(const RegistrationContext& context, const Node& node, const Pose& local_from_scan) {
+  if (context.axis_direction) return context.axis_direction(local_from_scan.translation());
+  return local_from_scan.linear() * node.prepared->axis;
+}
+
+}  // namespace adit

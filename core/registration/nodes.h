@@ -1,0 +1,40 @@
+#pragma once
+// The scans that take part in the adjustment.
+
+#include <vector>
+
+#include "core/registration/pose_graph.h"
+#include "core/registration/prepared_scan.h"
+#include "core/registration/registration.h"
+
+namespace adit {
+
+inline constexpr std::size_t least_targets = 3;  ///< place a scan without anything else
+
+/// A scan with a starting pose.
+struct Node {
+  std::size_t scan = 0;  ///< index into the caller's scans
+  const PreparedScan* prepared = nullptr;
+  Pose start = Pose::Identity();  ///< local_from_scan
+  enum class By { guess, control, search } by = By::search;
+  std::vector<GraphControl> control;
+};
+
+/// Targets of a scan with their control points. Throws Error for targets without a scan or a control point.
+void check_targets(const std::vector<ScanToPlace>& scans, const RegistrationContext& context);
+std::vector<GraphControl> control_of(const std::string& scan, const RegistrationContext& context);
+
+/// Prepares all scans; the order of the result is theirs.
+std::vector<PreparedScan> prepare_scans(const std::vector<ScanToPlace>& scans, const RegistrationOptions& options,
+                                        Progress& progress);
+
+/// Those scans that can start: at their guess, by their control, or where the search finds them. A finding names each
+/// that cannot.
+std::vector<Node> starting_nodes(const std::vector<ScanToPlace>& scans, const std::vector<PreparedScan>& prepared,
+                                 const RegistrationContext& context, const RegistrationOptions& options,
+                                 Findings& findings, Progress& progress);
+
+/// Direction of the tunnel at a node, local frame: the design's, or what its walls say.
+Eigen::Vector3d axis_at(const RegistrationContext& context, const Node& node, const Pose& local_from_scan);
+
+}  // namespace adit

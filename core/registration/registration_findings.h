@@ -1,0 +1,29 @@
+#pragma once
+// What a person must know of a registration, in words.
+
+#include "core/registration/adjustment.h"
+#include "core/registration/nodes.h"
+
+namespace adit {
+
+/// What contradicted the rest, and what was done about it.
+void report_contradictions(RegistrationResult& result, const Adjustment& adjustment, const PoseGraph& graph,
+                           const std::vector<Node>& nodes);
+
+/// Residuals of control, those beyond five sigma as findings.
+void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved, const PoseGraph& graph,
+                    const std::vector<Node>& nodes, const RegistrationOptions& options);
+
+/// Directions of a scan whose sigma is too great to be called known.
+void name_undetermined(PlacedScan& scan, const RegistrationOptions& options, Findings& findings);
+
+/// A scan that ended far from its guess: the guess was wrong, or the match is.
+void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,
+                        Findings& findings);
+
+/// Without control the place of the whole survey is only as good as the guess of its datum scan, and so is every number
+/// against a design.
+void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,
+                 const RegistrationOptions& options);
+
+}  // namespace adit

@@ -1,0 +1,77 @@
+#include "core/registration/scan_pairs.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/foundation/parallel.h"
+#include "core/registration/found_place.h"
+#include "core/registration/register_pair.h"
+
+namespace adit {
+namespace {
+
+constexpr std::size_t most_pairs_a_scan = 4;
+
+/// Less than any right place has, and as much as wrong ones in rock have.
+bool agrees(const PairResult& pair) {
+  constexpr double least_agreeing = 0.45;
+  return pair.agreeing >= least_agreeing;
+}
+
+}  // namespace
+
+std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const RegistrationOptions& options) {
+  std::set<std::pair<std::size_t, std::size_t>> chosen;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      const double distance = distance_between_m(nodes[i].start, nodes[j].start);
+      if (i != j && distance <= options.pair_distance_m) near.emplace_back(distance, j);
+    }
+    std::sort(near.begin(), near.end());
+    if (near.size() > most_pairs_a_scan) near.resize(most_pairs_a_scan);
+    for (const auto& [distance, j] : near) chosen.insert(std::minmax(i, j));
+  }
+  std::vector<Candidate> pairs;
+  for (const auto& [i, j] : chosen) {
+    const Pose guess = nodes[i].start.inverse() * nodes[j].start;
+    const double loose_m = 1.0 + options.guess_sigma_m;
+    const double overlap = overlap_at(*nodes[i].prepared, *nodes[j].prepared, guess, loose_m);
+    const double reverse = overlap_at(*nodes[j].prepared, *nodes[i].prepared, guess.inverse(), loose_m);
+    if (std::max(overlap, reverse) >= options.least_overlap) pairs.push_back({i, j});
+  }
+  return pairs;
+}
+
+std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
+                                       const RegistrationContext& context, const RegistrationOptions& options,
+                                       Progress& progress) {
+  std::vector<Progress> parts;
+  for (const auto& c : candidates)
+    parts.push_back(
+        progress.part(1.0 / static_cast<double>(candidates.size()),
+                      "matching " + nodes[c.source].prepared->name + " with " + nodes[c.target].prepared->name));
+  std::vector<PairResult> results(candidates.size());
+  parallel_for_each_index(
+      candidates.size(),
+      [&](std::size_t k) {
+        const Node& target = nodes[candidates[k].target];
+        const Node& source = nodes[candidates[k].source];
+        const Eigen::Vector3d axis = target.start.linear().transpose() * axis_at(context, target, target.start);
+        const bool found = target.by == Node::By::search && source.by == Node::By::search;
+        results[k] = register_pair(*target.prepared, *source.prepared, target.start.inverse() * source.start,
+                                   found ? Start::found : Start::guess, axis, options, parts[k]);
+        // The guess was too far off for the transform: look for the place without it.
+        if (!found && !agrees(results[k])) {
+          const PairFound other = found_place(*target.prepared, *source.prepared, options, parts[k]);
+          if (other.outcome == SearchOutcome::placed)
+            results[k] = register_pair(*target.prepared, *source.prepared, other.target_from_source, Start::found, axis,
+                                       options, parts[k]);
+        }
+        results[k].used = results[k].overlap >= options.least_overlap && agrees(results[k]);
+      },
+      1);
+  return results;
+}
+
+}  // namespace adit

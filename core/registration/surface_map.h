@@ -1,0 +1,43 @@
+#pragma once
+// A scan as small pieces of surface: what the last refinement lays upon each other.
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+#include "core/geometry/cell_index.h"
+#include "core/registration/distribution_map.h"
+
+namespace adit {
+
+/// The mean of one cell's points with the normal of the surface around it (either way), from the planes of the larger
+/// cells around it with Gaussian weights of 0.6 cells.
+struct SurfacePiece {
+  Eigen::Vector3f place = Eigen::Vector3f::Zero();
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();
+};
+
+/// Pieces of one size, found by place. Queries may run on several threads at once.
+class SurfaceMap {
+ public:
+  SurfaceMap() = default;
+  /// A piece for every cell of edge cell_m near which `planes` know a surface: maps of larger cells, the finest first;
+  /// the first that knows one is asked.
+  SurfaceMap(const std::vector<CellSums>& sums, double cell_m, std::span<const DistributionMap> planes);
+
+  double cell_m() const { return index_.cell_m(); }
+  const std::vector<SurfacePiece>& pieces() const { return pieces_; }
+
+  /// Calls visit(piece) for those of the cell that holds the place and of the 26 around it, in a fixed order.
+  template <typename Visit>
+  void visit_near(const Eigen::Vector3d& place, const Visit& visit) const {
+    index_.visit_near(place, [&](std::size_t slot) { visit(pieces_[slot]); });
+  }
+
+ private:
+  std::vector<SurfacePiece> pieces_;
+  CellIndex index_;
+};
+
+}  // namespace adit

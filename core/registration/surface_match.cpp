@@ -1,0 +1,148 @@
+#include "core/registration/surface_match.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/foundation/parallel.h"
+
+namespace adit {
+namespace {
+
+constexpr double least_facing = 0.7;  // cosine: two faces of one wall, or a corner, are not the same surface
+constexpr double smoothing = 0.6;     // sigma of the weights in cells
+
+/// Tukey's weight, and the derivative of weight times residual.
+struct Tukey {
+  double weight = 0.0;
+  double curvature = 0.0;
+};
+Tukey tukey(double residual_m, double reach_m) {
+  const double u2 = residual_m * residual_m / (reach_m * reach_m);
+  if (u2 >= 1.0) return {};
+  return {(1.0 - u2) * (1.0 - u2), (1.0 - u2) * (1.0 - 5.0 * u2)};
+}
+
+Vector6d jacobian(const SurfaceMatch& match) {
+  Vector6d j;
+  j << match.arm.cross(match.normal), match.normal;
+  return j;
+}
+
+/// The target's surface about a source piece.
+class Surface {
+ public:
+  Surface(const Eigen::Vector3d& place, const Eigen::Vector3d& source_normal, double cell_m)
+      : place_(place), source_normal_(source_normal), reach2_(cell_m * cell_m),
+        exponent_(-0.5 / (smoothing * smoothing * cell_m * cell_m)) {}
+
+  void add(const SurfacePiece& piece) {
+    const Eigen::Vector3d away = place_ - piece.place.cast<double>();
+    const double squared = away.squaredNorm();
+    if (squared >= reach2_) return;
+    Eigen::Vector3d normal = piece.normal.cast<double>();
+    const double facing = source_normal_.dot(normal);
+    if (std::abs(facing) < least_facing) return;
+    if (facing < 0.0) normal = -normal;
+    // The factor ends the weights at one cell without a step.
+    const double left = 1.0 - squared / reach2_;
+    const double weight = left * left * std::exp(exponent_ * squared);
+    weight_ += weight;
+    residual_ += 0.5 * weight * (source_normal_ + normal).dot(away);
+    normal_ += weight * normal;
+    nearest2_ = std::min(nearest2_, squared);
+  }
+
+  bool is_near() const { return weight_ > 1e-6; }
+
+  SurfaceMatch match(const Eigen::Vector3d& origin) const {
+    SurfaceMatch match;
+    const Eigen::Vector3d target_normal = normal_.normalized();
+    match.arm = place_ - origin;
+    match.normal = (source_normal_ + target_normal).normalized();
+    match.normal_error = 0.5 * (source_normal_ - target_normal);
+    match.residual_m = residual_ / weight_;
+    match.distance_m = std::sqrt(nearest2_);
+    return match;
+  }
+
+ private:
+  Eigen::Vector3d place_, source_normal_;
+  double reach2_, exponent_;
+  double weight_ = 0.0, residual_ = 0.0, nearest2_ = 1e300;
+  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
+};
+
+struct Matches {
+  std::vector<SurfaceMatch> list;
+  Matches& operator+=(const Matches& more) {
+    list.insert(list.end(), more.list.begin(), more.list.end());
+    return *this;
+  }
+};
+
+}  // namespace
+
+std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, std::span<const SurfacePiece> source,
+                                          const Pose& target_from_source, Progress& progress) {
+  const auto matched = [&](std::size_t begin, std::size_t end) {
+    progress.check();
+    Matches matches;
+    for (const SurfacePiece& piece : source.subspan(begin, end - begin)) {
+      const Eigen::Vector3d place = target_from_source * piece.place.cast<double>();
+      Surface surface(place, target_from_source.linear() * piece.normal.cast<double>(), target.cell_m());
+      target.visit_near(place, [&](const SurfacePiece& near) { surface.add(near); });
+      if (surface.is_near()) matches.list.push_back(surface.match(target_from_source.translation()));
+    }
+    return matches;
+  };
+  return parallel_ordered_sum(source.size(), 1024, Matches{}, matched).list;
+}
+
+NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
+  hessian += other.hessian;
+  gradient += other.gradient;
+  weight += other.weight;
+  curvature += other.curvature;
+  noise += other.noise;
+  return *this;
+}
+
+NormalEquations normal_equations(std::span<const SurfaceMatch> matches, double tukey_m) {
+  return parallel_ordered_sum(matches.size(), 4096, NormalEquations{}, [&](std::size_t begin, std::size_t end) {
+    NormalEquations sums;
+    for (const SurfaceMatch& match : matches.subspan(begin, end - begin)) {
+      const Tukey pull = tukey(match.residual_m, tukey_m);
+      if (!(pull.weight > 0.0)) continue;
+      const Vector6d j = jacobian(match);
+      sums.hessian.noalias() += pull.weight * j * j.transpose();
+      sums.gradient += pull.weight * match.residual_m * j;
+      sums.weight += pull.weight;
+      sums.curvature += pull.curvature;
+      Vector6d error;
+      error << match.arm.cross(match.normal_error), match.normal_error;
+      sums.noise.noalias() += pull.weight * error * error.transpose();
+    }
+    return sums;
+  });
+}
+
+Matrix6d gradient_covariance(std::span<const SurfaceMatch> matches, double tukey_m, double cube_m) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> by_cube;
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    by_cube.emplace_back(cell_key((matches[i].arm / cube_m).array().floor() + half_cells), i);
+  std::sort(by_cube.begin(), by_cube.end());
+  Matrix6d covariance = Matrix6d::Zero();
+  Vector6d sum = Vector6d::Zero();
+  double cubes = 0.0;
+  for (std::size_t n = 0; n < by_cube.size(); ++n) {
+    const SurfaceMatch& match = matches[by_cube[n].second];
+    sum += tukey(match.residual_m, tukey_m).weight * match.residual_m * jacobian(match);
+    if (n + 1 < by_cube.size() && by_cube[n + 1].first == by_cube[n].first) continue;
+    covariance += sum * sum.transpose();
+    sum.setZero();
+    cubes += 1.0;
+  }
+  return covariance * (cubes > 6.0 ? cubes / (cubes - 6.0) : 1.0);  // six parameters were fitted
+}
+
+}  // namespace adit

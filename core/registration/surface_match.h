@@ -1,0 +1,48 @@
+#pragma once
+// Pieces of two scans' surfaces laid upon each other, and what the distances between them say about the pose.
+
+#include <span>
+#include <vector>
+
+#include "core/foundation/progress.h"
+#include "core/geometry/pose.h"
+#include "core/registration/surface_map.h"
+
+namespace adit {
+
+/// A source's piece over the target's surface. Target's frame.
+struct SurfaceMatch {
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();      ///< from the source's origin to the piece
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< half-way between those of both surfaces
+  double residual_m = 0.0;                            ///< along the normal
+  double distance_m = 0.0;                            ///< to the nearest piece of the target
+  Eigen::Vector3d normal_error = Eigen::Vector3d::Zero();  ///< half the difference of the two: as good as its error
+};
+
+/// For every source piece with target pieces within one cell that face the same way (45 degrees): the distance to the
+/// surface that these make together, with Gaussian weights w of 0.6 cells (implicit moving least squares, Kolluri 2008),
+///   residual = sum w n . (q - t) / sum w,   n = (n_t + R n_s) / 2,
+/// the normals of both sides halved (the symmetric metric of Rusinkiewicz 2019: exact on surfaces that curve).
+std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, std::span<const SurfacePiece> source,
+                                          const Pose& target_from_source, Progress& progress);
+
+/// Sums over matches with J = [arm x n, n] (rotation [rad] about the source's origin, then translation [m]) and Tukey's
+/// weights w of the given reach.
+struct NormalEquations {
+  Matrix6d hessian = Matrix6d::Zero();  ///< sum w J^T J
+  Vector6d gradient = Vector6d::Zero();
+  double weight = 0.0;     ///< sum w
+  double curvature = 0.0;  ///< sum of the derivative of w r by r: less than the weight, as far ones pull less
+  /// The part of the hessian that comes from the normals' own errors e, measured: sum w B e e^T B^T with B = [[arm]x; I].
+  /// A featureless wall seen with noise has a hessian along itself made of noise alone.
+  Matrix6d noise = Matrix6d::Zero();
+
+  NormalEquations& operator+=(const NormalEquations& other);
+};
+NormalEquations normal_equations(std::span<const SurfaceMatch> matches, double tukey_m);
+
+/// Covariance of the gradient, measured: gradients are summed by cubes, within which surfaces may err together, and the
+/// squares of these sums are added (White 1980, by clusters).
+Matrix6d gradient_covariance(std::span<const SurfaceMatch> matches, double tukey_m, double cube_m);
+
+}  // namespace adit

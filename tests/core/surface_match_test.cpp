@@ -1,0 +1,165 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/foundation/random.h"
+#include "core/geometry/pose_step.h"
+#include "core/registration/loops.h"
+#include "core/registration/observability.h"
+
+namespace adit {
+namespace {
+
+constexpr double cell_m = 0.2;
+
+/// Points of a plane patch of 8 m around a place, with noise along the normal.
+void add_patch(std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& middle, const Eigen::Vector3d& normal,
+               double noise_m, std::uint64_t seed) {
+  const Random random(seed);
+  const Eigen::Vector3d u = normal.unitOrthogonal();
+  const Eigen::Vector3d v = normal.cross(u);
+  for (std::uint64_t i = 0; i < 40000; ++i)
+    points.push_back((middle + random.uniform(3 * i, -4, 4) * u + random.uniform(3 * i + 1, -4, 4) * v +
+                      noise_m * random.normal(100000 + i) * normal)
+                         .cast<float>());
+}
+
+SurfaceMap map_of(const std::vector<Eigen::Vector3f>& points) {
+  const std::vector<CellSums> sums = cell_sums(points, cell_m);
+  const std::vector<DistributionMap> planes{DistributionMap(with_double_cells(sums), 2.0 * cell_m, {})};
+  return {sums, cell_m, planes};
+}
+
+/// Where the source's scanner stood: its cells are not those of the target.
+const Pose stood = make_pose({0.37, -0.21, 0.13}, {0.7, 0.02, -0.03});
+
+std::vector<Eigen::Vector3f> seen_from(const Pose& pose, std::vector<Eigen::Vector3f> points) {
+  for (auto& p : points) p = (pose.inverse() * p.cast<double>()).cast<float>();
+  return points;
+}
+
+struct Patch {
+  Eigen::Vector3d middle, normal;
+};
+
+SurfaceMap surface_of(const std::vector<Patch>& patches, double noise_m, std::uint64_t seed,
+                      const Pose& from = Pose::Identity()) {
+  std::vector<Eigen::Vector3f> points;
+  for (const Patch& patch : patches) add_patch(points, patch.middle, patch.normal, noise_m, seed++);
+  return map_of(seen_from(from, points));
+}
+
+const std::vector<Patch> room{{{4.1, 0.3, 0.2}, {1, 0, 0}},
+                              {{0.1, 5.0, 0.3}, {0, 1, 0}},
+                              {{0.2, 0.4, -3.0}, {0, 0, 1}},
+                              {{0.2, -5.0, 0.4}, {0, 1, 0}}};
+const std::vector<Patch> corridor{
+    {{0.1, 5.0, 0.3}, {0, 1, 0}}, {{0.2, 0.4, -3.0}, {0, 0, 1}}, {{0.2, -5.0, 0.4}, {0, 1, 0}}};
+
+/// A circular tube of 4 m radius along x.
+SurfaceMap tube(double noise_m, std::uint64_t seed, const Pose& from = Pose::Identity()) {
+  const Random random(seed);
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t i = 0; i < 150000; ++i) {
+    const double angle = random.uniform(2 * i, -pi, pi);
+    const double radius = 4.0 + noise_m * random.normal(1000000 + i);
+    points.push_back(
+        Eigen::Vector3d(random.uniform(2 * i + 1, -9, 9), radius * std::cos(angle), radius * std::sin(angle))
+            .cast<float>());
+  }
+  return map_of(seen_from(from, points));
+}
+
+PairInformation judged(const SurfaceMap& target, const SurfaceMap& source) {
+  Progress progress;
+  return judge_observability(surface_matches(target, source.pieces(), stood, progress), 0.05,
+                             tunnel_axes({1, 0, 0}), {}, {});
+}
+
+std::vector<std::string> undetermined(const PairInformation& known) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < 6; ++i)
+    if (known.undetermined[i]) names.emplace_back(direction_names[i]);
+  return names;
+}
+
+TEST(SurfaceMatch, OneStepFindsASmallMoveOfPlanes) {
+  const SurfaceMap target = surface_of(room, 0.003, 1);
+  const SurfaceMap source = surface_of(room, 0.003, 50);
+  Progress progress;
+  Pose pose = Pose::Identity();
+  pose.translation() = Eigen::Vector3d(0.02, -0.03, 0.01);
+  pose.linear() = rotation_from_vector({0.002, -0.001, 0.003});
+  for (int i = 0; i < 4; ++i) {
+    const auto matches = surface_matches(target, source.pieces(), pose, progress);
+    ASSERT_GT(matches.size(), 2000U);
+    pose = stepped(pose, step_without(normal_equations(matches, 0.1), {}, tunnel_axes({1, 0, 0})));
+  }
+  EXPECT_LT(pose.translation().norm(), 0.001);
+  EXPECT_LT(rotation_vector(pose.linear()).norm(), 0.0003);
+}
+
+TEST(SurfaceMatch, OfTwoFacesOfOneWallThereIsNone) {
+  const SurfaceMap target = surface_of({{{4.0, 0, 0}, {1, 0, 0}}}, 0.0, 1);
+  const SurfaceMap source = surface_of({{{4.0, 0, 0}, {0, 1, 0}}}, 0.0, 9);
+  Progress progress;
+  EXPECT_TRUE(surface_matches(target, source.pieces(), Pose::Identity(), progress).empty());
+}
+
+TEST(Observability, ARoomIsKnownInEveryDirection) {
+  const PairInformation known = judged(surface_of(room, 0.003, 1), surface_of(room, 0.003, 50, stood));
+  EXPECT_TRUE(undetermined(known).empty());
+  EXPECT_LT(known.sigma.along_m, 0.001);
+  EXPECT_GT(known.sigma.along_m, 1e-6);
+}
+
+TEST(Observability, ACorridorIsUnknownAlongAndOnlyAlong) {
+  const PairInformation known = judged(surface_of(corridor, 0.003, 1), surface_of(corridor, 0.003, 50, stood));
+  EXPECT_EQ(undetermined(known), std::vector<std::string>{"along"});
+  EXPECT_LT(known.sigma.across_m, 0.001);
+  EXPECT_LT(known.sigma.yaw_rad, 0.001);
+  // Information: next to none along, plenty across.
+  EXPECT_GT(known.information.inverse()(3, 3), 1.0);
+  EXPECT_GT(known.information(4, 4), 1e6);
+}
+
+TEST(Observability, ACircularTubeIsUnknownAlongAndInRoll) {
+  const PairInformation known = judged(tube(0.003, 1), tube(0.003, 50, stood));
+  EXPECT_EQ(undetermined(known), (std::vector<std::string>{"along", "roll"}));
+}
+
+TEST(Observability, HeldDirectionsStayAtTheGuess) {
+  const Pose guess = make_pose({1, 2, 3}, {0.3, 0.02, 0.01});
+  Pose found = guess;
+  found.translation() += Eigen::Vector3d(0.5, 0.1, -0.2);
+  found.linear() = rotation_from_vector({0.01, 0.02, 0.03}) * guess.linear();
+  HeldDirections held{};
+  held[0] = held[5] = true;  // along, yaw
+  const Pose put = held_at(guess, found, held, tunnel_axes({1, 0, 0}));
+  EXPECT_TRUE(put.translation().isApprox(Eigen::Vector3d(1.0, 2.1, 2.8), 1e-12));
+  EXPECT_TRUE(
+      rotation_vector(put.linear() * guess.linear().transpose()).isApprox(Eigen::Vector3d(0.01, 0.02, 0.0), 1e-9));
+}
+
+TEST(Loops, OfFourScansInARingLeaveWhatThePairsLeave) {
+  std::vector<Pose> truth;
+  for (int i = 0; i < 4; ++i) truth.push_back(make_pose({5.0 * i, 2.0 * (i % 2), 0.1 * i}, {0.4 * i, 0.01, 0.0}));
+  std::vector<GraphPair> pairs;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t k = (i + 1) % 4;
+    pairs.push_back({k, i, truth[i].inverse() * truth[k], Matrix6d::Identity()});
+  }
+  auto loops = loops_of(4, pairs);
+  ASSERT_EQ(loops.size(), 1U);
+  EXPECT_EQ(loops[0].nodes.size(), 4U);
+  EXPECT_LT(closure_of(loops[0], pairs).translation().norm(), 1e-12);
+  pairs[2].target_from_source.translation().z() += 0.01;
+  EXPECT_NEAR(closure_of(loops[0], pairs).translation().norm(), 0.01, 1e-3);
+  pairs.push_back({2, 0, truth[0].inverse() * truth[2], Matrix6d::Identity()});
+  loops = loops_of(5, pairs);  // the fifth stands alone
+  EXPECT_EQ(loops.size(), 2U);
+  for (const PairLoop& loop : loops) EXPECT_EQ(loop.parts.size(), loop.nodes.size());
+}
+
+}  // namespace
+}  // namespace adit
