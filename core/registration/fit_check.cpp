@@ -60,7 +60,8 @@ Counts counted(const PreparedScan& of, const PreparedScan& in, const Pose& in_fr
 
 }  // namespace
 
-FitCheck check_fit(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source, double near_m) {
+FitCheck check_fit(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                   double near_m) {
   Counts counts = counted(source, target, target_from_source, near_m);
   counts += counted(target, source, target_from_source.inverse(), near_m);
   const double all = std::max(1.0, counts.compared);

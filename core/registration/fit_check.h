@@ -8,8 +8,8 @@ namespace adit {
 
 /// Both scans of a pair against each other.
 struct FitCheck {
-  double compared = 0.0;  ///< points of either scan where the other has a surface near or has seen through
-  double agreeing = 0.0;  ///< share of them on the other's surface
+  double compared = 0.0;      ///< points of either scan where the other has a surface near or has seen through
+  double agreeing = 0.0;      ///< share of them on the other's surface
   double seen_through = 0.0;  ///< share of them where the other scanner saw through
 
   /// Most is best. Smooth walls agree in many places, but a wrong one is soon seen through: that weighs three times.
@@ -20,8 +20,8 @@ struct FitCheck {
   bool agrees() const { return agreeing >= 0.5 && seen_through <= 0.05; }
 };
 
-/// near_m: how far a point may be off the other's surface (or three times the thickness found there); more for poses that
-/// are not refined yet.
+/// near_m: how far a point may be off the other's surface (or three times the thickness found there); more for poses
+/// that are not refined yet.
 FitCheck check_fit(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                    double near_m = 0.02);
 

@@ -22,8 +22,7 @@ bool same_place(const Pose& a, const Pose& b) {
 
 PairFound found_place(const PreparedScan& target, const PreparedScan& source, const RegistrationOptions& options,
                       Progress& progress) {
-  const std::vector<PairPlace> places =
-      search_pair(target, plan_of(target), source, plan_of(source), {}, progress);
+  const std::vector<PairPlace> places = search_pair(target, plan_of(target), source, plan_of(source), {}, progress);
   PairFound found;
   if (places.empty() || !places.front().check.is_enough() || !places.front().check.agrees()) return found;
   found.target_from_source = places.front().target_from_source;
@@ -32,9 +31,9 @@ PairFound found_place(const PreparedScan& target, const PreparedScan& source, co
     if (!same_place(other.target_from_source, found.target_from_source) &&
         other.check.worth() > places.front().check.worth() - least_lead)
       return found;
-  found.target_from_source =
-      refined(target, source, found.target_from_source, {}, tunnel_axes(target.axis), progress);
-  const PairInformation known = pair_information(target, source, found.target_from_source, target.axis, options, progress);
+  found.target_from_source = refined(target, source, found.target_from_source, {}, tunnel_axes(target.axis), progress);
+  const PairInformation known =
+      pair_information(target, source, found.target_from_source, target.axis, options, progress);
   found.outcome = known.undetermined == HeldDirections{} ? SearchOutcome::placed : SearchOutcome::undetermined;
   return found;
 }

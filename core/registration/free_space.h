@@ -12,7 +12,7 @@ enum class Sight {
   unknown,       ///< nothing was measured in that direction
   seen_through,  ///< well before the surface: the pulses went on
   on_surface,
-  hidden         ///< behind it
+  hidden  ///< behind it
 };
 
 /// The ranges a scanner at the frame's origin measured, by direction: least and greatest of each pixel of 2 degrees.

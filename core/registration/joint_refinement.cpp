@@ -42,10 +42,11 @@ JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustm
         [&](std::size_t k) {
           GraphPair& pair = joint.graph.pairs[k];
           const Node& target = nodes[pair.target];
-          const Pose now = joint.solved.local_from_scan[pair.target].inverse() * joint.solved.local_from_scan[pair.source];
+          const Pose now =
+              joint.solved.local_from_scan[pair.target].inverse() * joint.solved.local_from_scan[pair.source];
           const Eigen::Vector3d axis = target.start.linear().transpose() * axis_at(context, target, target.start);
-          if (const auto asked = one_step(*target.prepared, *nodes[pair.source].prepared, now, held[k],
-                                          tunnel_axes(axis), progress))
+          if (const auto asked =
+                  one_step(*target.prepared, *nodes[pair.source].prepared, now, held[k], tunnel_axes(axis), progress))
             pair.target_from_source = *asked;
         },
         1);

@@ -42,7 +42,8 @@ std::vector<Hypothesis> descended(const PreparedScan& target, const PreparedScan
         ends[i] = {end.pose, end.at.score};
       },
       1);
-  std::stable_sort(ends.begin(), ends.end(), [](const Hypothesis& a, const Hypothesis& b) { return a.score < b.score; });
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.score < b.score; });
   std::vector<Hypothesis> kept;
   for (const Hypothesis& end : ends) {
     const bool is_new = std::none_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
@@ -64,9 +65,8 @@ std::vector<PairPlace> checked(const PreparedScan& target, const PreparedScan& s
         places[i] = {hypotheses[i].pose, check_fit(target, source, hypotheses[i].pose, near_m), hypotheses[i].score};
       },
       1);
-  std::stable_sort(places.begin(), places.end(), [](const PairPlace& a, const PairPlace& b) {
-    return a.check.worth() > b.check.worth();
-  });
+  std::stable_sort(places.begin(), places.end(),
+                   [](const PairPlace& a, const PairPlace& b) { return a.check.worth() > b.check.worth(); });
   return places;
 }
 

@@ -21,9 +21,9 @@ struct PairSearchOptions {
   std::size_t most_starts = 80;  ///< from the plans
 };
 
-/// Starts from the plans of both scans, descends from each with the normal distributions transform in coarse cells, keeps
-/// the best few in finer ones, and judges these by fit and free space; the best first. Any yaw; both scans within some
-/// 20 degrees of level. Empty when the plans do not meet at all.
+/// Starts from the plans of both scans, descends from each with the normal distributions transform in coarse cells,
+/// keeps the best few in finer ones, and judges these by fit and free space; the best first. Any yaw; both scans within
+/// some 20 degrees of level. Empty when the plans do not meet at all.
 std::vector<PairPlace> search_pair(const PreparedScan& target, const PlanView& target_plan, const PreparedScan& source,
                                    const PlanView& source_plan, const PairSearchOptions& options, Progress& progress);
 

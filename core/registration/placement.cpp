@@ -8,7 +8,6 @@
 namespace adit {
 namespace {
 
-
 std::string words_of(SearchOutcome outcome) {
   switch (outcome) {
     case SearchOutcome::alike_elsewhere:
@@ -32,7 +31,9 @@ class Groups {
   }
 
   bool together(std::size_t i, std::size_t k) const { return group_[i] == group_[k]; }
-  bool all_together() const { return std::adjacent_find(group_.begin(), group_.end(), std::not_equal_to<>()) == group_.end(); }
+  bool all_together() const {
+    return std::adjacent_find(group_.begin(), group_.end(), std::not_equal_to<>()) == group_.end();
+  }
 
   /// Brings both groups together if that contradicts nothing: no other two scans of them may see through each other.
   bool join(std::size_t target, std::size_t source, const Pose& target_from_source) {
@@ -91,7 +92,8 @@ std::vector<StartingPlace> place_scans(const std::vector<PreparedScan>& scans,
   const auto pairs = pairs_to_try(scans.size());
   for (std::size_t n = 0; n < pairs.size() && !groups.all_together(); ++n) {
     const auto [i, k] = pairs[n];
-    Progress searching = progress.part(1.0 / static_cast<double>(pairs.size()), "searching " + scans[k].name + " in " + scans[i].name);
+    Progress searching =
+        progress.part(1.0 / static_cast<double>(pairs.size()), "searching " + scans[k].name + " in " + scans[i].name);
     if (groups.together(i, k)) continue;
     PairFound found = found_place(scans[i], scans[k], options, searching);
     if (found.outcome == SearchOutcome::placed && !groups.join(i, k, found.target_from_source))
@@ -104,7 +106,8 @@ std::vector<StartingPlace> place_scans(const std::vector<PreparedScan>& scans,
   for (std::size_t i = 0; i < scans.size(); ++i) {
     places[i].local_from_scan = groups.pose_in(main, i);
     if (!places[i].local_from_scan)
-      places[i].why_not = best[i] == SearchOutcome::placed ? "it fits to others, but none of them to the rest" : words_of(best[i]);
+      places[i].why_not =
+          best[i] == SearchOutcome::placed ? "it fits to others, but none of them to the rest" : words_of(best[i]);
   }
   return places;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A scan seen from above: the walls around the floor on which the scanner stood. Two such views say where one scan could
-// stand in the other when nothing is known about it.
+// A scan seen from above: the walls around the floor on which the scanner stood. Two such views say where one scan
+// could stand in the other when nothing is known about it.
 
 #include <Eigen/Core>
 

@@ -17,7 +17,6 @@ constexpr std::size_t enough_points = 20000;
 constexpr double coarsest_cell_m = 10.0;  // as far as options.registration.cell_m goes
 constexpr double unlimited_range_m = 1e8;
 constexpr std::size_t piece_sizes = 4;
-constexpr double pieces_coarser = 8.0;
 constexpr double points_a_piece = 1.7;  // smaller pieces of fewer points do worse than larger ones
 
 Eigen::Vector3d least_faced(const DistributionMap& cells) {
@@ -64,11 +63,11 @@ PreparedScan prepare_scan(const std::string& name, const TileSource& source, dou
                 "scan " + name, "check the units of the file (metres are needed) or lower registration.spacing_m");
   scan.pyramid = distribution_pyramid(sums, scan.spacing_m, coarsest_cell_m, {});
   const std::span<const DistributionMap> planes(scan.pyramid.levels);
-  scan.piece_m = scan.spacing_m * pieces_coarser;
   for (std::size_t size = 0; size < piece_sizes; ++size) {
     const double cell_m = scan.spacing_m * static_cast<double>(std::size_t{1} << size);
     if (size > 0) sums = with_double_cells(std::move(sums));
-    if (mean_points(sums) >= points_a_piece) scan.piece_m = std::min(scan.piece_m, cell_m);
+    if (scan.surfaces.empty() && size + 2 < piece_sizes && mean_points(sums) < points_a_piece) continue;
+    if (scan.surfaces.empty()) scan.piece_m = cell_m;
     scan.surfaces.emplace_back(sums, cell_m, planes.subspan(size, 2));
   }
   if (most_range_m < unlimited_range_m) scan.ranges = RangeImage(scan.points);

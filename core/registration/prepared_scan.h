@@ -19,7 +19,7 @@ struct PreparedScan {
   double spacing_m = 0.0;               ///< of the points
   std::vector<Eigen::Vector3f> points;  ///< even subsample
   DistributionPyramid pyramid;          ///< from cells of twice the spacing on, of all points that were read
-  std::vector<SurfaceMap> surfaces;     ///< pieces of the spacing's size, twice and four times as large
+  std::vector<SurfaceMap> surfaces;     ///< pieces of piece_m, and twice, ... as large, to eight spacings
   double piece_m = 0.0;                 ///< size of the finest pieces that hold two points each or so
   RangeImage ranges;                    ///< of nothing where the file does not say where the scanner stood
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit direction that the fewest walls face: along a tunnel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/foundation/angle.h"
 #include "core/foundation/parallel.h"
@@ -38,7 +39,10 @@ std::optional<Vector6d> step_of(const SurfaceMap& target, const SurfaceMap& sour
                                 const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress) {
   const std::vector<SurfaceMatch> matches = surface_matches(target, source.pieces(), pose, progress);
   if (matches.size() < least_matches) return std::nullopt;
-  return step_without(normal_equations(matches, tukey_reach_m(matches, target.cell_m())), held, axes);
+  const NormalEquations equations = normal_equations(matches, tukey_reach_m(matches, target.cell_m()));
+  // Far matches pull less the farther they are: the cost bends less than the weights say, and the steps would be short.
+  const double bend = std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.4, 1.0);
+  return Vector6d(step_without(equations, held, axes) / bend);
 }
 
 Pose stepped_to_rest(const SurfaceMap& target, const SurfaceMap& source, Pose pose, const HeldDirections& held,
@@ -114,7 +118,7 @@ Pose refined(const PreparedScan& target, const PreparedScan& source, Pose pose, 
   const double finest_m = piece_of(target, source);
   pose =
       stepped_to_rest(target.surface(2.0 * finest_m), source.surface(2.0 * finest_m), pose, held, axes, 2e-4, progress);
-  return stepped_to_rest(target.surface(finest_m), source.surface(finest_m), pose, held, axes, 1e-5, progress);
+  return stepped_to_rest(target.surface(finest_m), source.surface(finest_m), pose, held, axes, 2e-5, progress);
 }
 
 std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
@@ -142,14 +146,24 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   pair.target = target.name;
   const Eigen::Matrix3d axes = tunnel_axes(axis_in_target);
   Progress transform = progress.part(0.5, "");
-  NdtAlignment alignment{guess, 0.0, 0};
-  if (start == Start::guess) {
-    NdtOptions ndt;
-    ndt.coarsest_cell_m = options.cell_m;
-    alignment = ndt_align(target.pyramid, source.pyramid, guess, ndt, transform);
-  }
+  NdtOptions ndt;
+  ndt.coarsest_cell_m = options.cell_m;
+  ndt.finest_cell_m = std::max(ndt.finest_cell_m, 8.0 * piece_of(target, source));
+  const double search_m = std::exchange(ndt.search_m, 0.0);
   Progress last = progress.part(0.5, "");
-  Pose pose = refined(target, source, alignment.target_from_source, {}, axes, last);
+  Pose pose = guess;
+  const auto align = [&] {
+    const NdtAlignment alignment = ndt_align(target.pyramid, source.pyramid, guess, ndt, transform);
+    pair.iterations += alignment.iterations;
+    return refined(target, source, alignment.target_from_source, {}, axes, last);
+  };
+  if (start == Start::found) {
+    pose = refined(target, source, guess, {}, axes, last);
+  } else {
+    pose = align();
+    ndt.search_m = search_m;
+    if (!check_fit(target, source, pose).agrees()) pose = align();  // another round of blasting, perhaps
+  }
   PairInformation known = pair_information(target, source, pose, axis_in_target, options, last);
   const SurfaceMap& surface = target.surface(piece_of(target, source));
   const auto& pieces = source.surface(surface.cell_m()).pieces();
@@ -160,7 +174,6 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
                                 known.undetermined);
   }
   pair.target_from_source = pose;
-  pair.iterations = alignment.iterations;
   pair.sigma = no_worse_than_guess(known.sigma, options);
   pair.information = known.information;
   for (std::size_t i = 0; i < known.undetermined.size(); ++i)

@@ -72,14 +72,13 @@ void report_contradictions(RegistrationResult& result, const Adjustment& adjustm
   }
 }
 
-void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved, const PoseGraph& graph,
-                    const std::vector<Node>& nodes, const RegistrationOptions& options) {
+void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved,
+                    const PoseGraph& graph, const std::vector<Node>& nodes, const RegistrationOptions& options) {
   std::vector<double> components;
   for (std::size_t k = 0; k < graph.control.size(); ++k) {
     const GraphControl& control = graph.control[k];
     const std::string& name = nodes[control.node].prepared->name;
-    const Eigen::Vector3d residual =
-        solved.local_from_scan[control.node] * control.in_scan - control.in_local;
+    const Eigen::Vector3d residual = solved.local_from_scan[control.node] * control.in_scan - control.in_local;
     result.control.push_back({name, control.id, residual, adjustment.control_used[k]});
     if (!adjustment.control_used[k]) continue;
     for (const double component : residual) components.push_back(component);

@@ -11,8 +11,8 @@ void report_contradictions(RegistrationResult& result, const Adjustment& adjustm
                            const std::vector<Node>& nodes);
 
 /// Residuals of control, those beyond five sigma as findings.
-void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved, const PoseGraph& graph,
-                    const std::vector<Node>& nodes, const RegistrationOptions& options);
+void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved,
+                    const PoseGraph& graph, const std::vector<Node>& nodes, const RegistrationOptions& options);
 
 /// Directions of a scan whose sigma is too great to be called known.
 void name_undetermined(PlacedScan& scan, const RegistrationOptions& options, Findings& findings);

@@ -32,7 +32,9 @@ Vector6d jacobian(const SurfaceMatch& match) {
 class Surface {
  public:
   Surface(const Eigen::Vector3d& place, const Eigen::Vector3d& source_normal, double cell_m)
-      : place_(place), source_normal_(source_normal), reach2_(cell_m * cell_m),
+      : place_(place),
+        source_normal_(source_normal),
+        reach2_(cell_m * cell_m),
         exponent_(-0.5 / (smoothing * smoothing * cell_m * cell_m)) {}
 
   void add(const SurfacePiece& piece) {

@@ -12,15 +12,16 @@ namespace adit {
 
 /// A source's piece over the target's surface. Target's frame.
 struct SurfaceMatch {
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();      ///< from the source's origin to the piece
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< half-way between those of both surfaces
-  double residual_m = 0.0;                            ///< along the normal
-  double distance_m = 0.0;                            ///< to the nearest piece of the target
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();           ///< from the source's origin to the piece
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();       ///< half-way between those of both surfaces
+  double residual_m = 0.0;                                 ///< along the normal
+  double distance_m = 0.0;                                 ///< to the nearest piece of the target
   Eigen::Vector3d normal_error = Eigen::Vector3d::Zero();  ///< half the difference of the two: as good as its error
 };
 
 /// For every source piece with target pieces within one cell that face the same way (45 degrees): the distance to the
-/// surface that these make together, with Gaussian weights w of 0.6 cells (implicit moving least squares, Kolluri 2008),
+/// surface that these make together, with Gaussian weights w of 0.6 cells (implicit moving least squares, Kolluri
+/// 2008),
 ///   residual = sum w n . (q - t) / sum w,   n = (n_t + R n_s) / 2,
 /// the normals of both sides halved (the symmetric metric of Rusinkiewicz 2019: exact on surfaces that curve).
 std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, std::span<const SurfacePiece> source,
@@ -33,8 +34,8 @@ struct NormalEquations {
   Vector6d gradient = Vector6d::Zero();
   double weight = 0.0;     ///< sum w
   double curvature = 0.0;  ///< sum of the derivative of w r by r: less than the weight, as far ones pull less
-  /// The part of the hessian that comes from the normals' own errors e, measured: sum w B e e^T B^T with B = [[arm]x; I].
-  /// A featureless wall seen with noise has a hessian along itself made of noise alone.
+  /// The part of the hessian that comes from the normals' own errors e, measured: sum w B e e^T B^T with B = [[arm]x;
+  /// I]. A featureless wall seen with noise has a hessian along itself made of noise alone.
   Matrix6d noise = Matrix6d::Zero();
 
   NormalEquations& operator+=(const NormalEquations& other);

@@ -10,9 +10,9 @@
 
 namespace adit {
 
-/// Casts rays in one tunnel, or in several that open into each other: air is where any of them has air. The first is the
-/// main one; the others are its branches and niches, which begin inside it. Made once for many rays; the tunnels must
-/// outlive it. Rays may be cast on several threads at once.
+/// Casts rays in one tunnel, or in several that open into each other: air is where any of them has air. The first is
+/// the main one; the others are its branches and niches, which begin inside it. Made once for many rays; the tunnels
+/// must outlive it. Rays may be cast on several threads at once.
 class RayCast {
  public:
   explicit RayCast(std::span<const RockTunnel> tunnels);

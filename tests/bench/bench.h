@@ -22,6 +22,7 @@ inline double seconds_of(int runs, const std::function<void()>& work) {
 
 void bench_registration();
 void bench_placement();
+void bench_tunnels();
 void bench_io();
 void bench_profiling();
 /// A row: millions of points, seconds for the index, the first section, a thousand sections.

@@ -1,5 +1,5 @@
-// ./dev bench [registration] [placement] [io] [profiling]; import.py asks for single rows: sections JOB, slice JOB,
-// decoding FILE
+// ./dev bench [registration] [placement] [tunnels] [io] [profiling]; import.py asks for single rows: sections JOB,
+// slice JOB, decoding FILE
 #include <pcl/console/print.h>
 
 #include <algorithm>
@@ -23,11 +23,13 @@ int main(int argc, char** argv) {
   }
   const std::vector<std::pair<std::string, void (*)()>> tables{{"registration", adit::bench::bench_registration},
                                                                {"placement", adit::bench::bench_placement},
+                                                               {"tunnels", adit::bench::bench_tunnels},
                                                                {"io", adit::bench::bench_io},
                                                                {"profiling", adit::bench::bench_profiling}};
   for (const std::string& word : wanted)
     if (std::none_of(tables.begin(), tables.end(), [&](const auto& table) { return table.first == word; })) {
-      std::fprintf(stderr, "bench: there is no table \"%s\"; registration, placement, io, profiling\n", word.c_str());
+      std::fprintf(stderr, "bench: there is no table \"%s\"; registration, placement, tunnels, io, profiling\n",
+                   word.c_str());
       return 2;
     }
   for (const auto& [name, run] : tables)

@@ -72,8 +72,8 @@ SurfaceMap tube(double noise_m, std::uint64_t seed, const Pose& from = Pose::Ide
 
 PairInformation judged(const SurfaceMap& target, const SurfaceMap& source) {
   Progress progress;
-  return judge_observability(surface_matches(target, source.pieces(), stood, progress), 0.05,
-                             tunnel_axes({1, 0, 0}), {}, {});
+  return judge_observability(surface_matches(target, source.pieces(), stood, progress), 0.05, tunnel_axes({1, 0, 0}),
+                             {}, {});
 }
 
 std::vector<std::string> undetermined(const PairInformation& known) {
