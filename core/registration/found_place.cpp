@@ -22,8 +22,9 @@ bool same_place(const Pose& a, const Pose& b) {
 
 PairFound found_place(const PreparedScan& target, const PreparedScan& source, const RegistrationOptions& options,
                       Progress& progress) {
-  const std::vector<PairPlace> places = search_pair(target, plan_of(target), source, plan_of(source), {}, progress);
   PairFound found;
+  if (target.ranges.is_empty() || source.ranges.is_empty()) return found;  // nobody knows where the scanners stood
+  const std::vector<PairPlace> places = search_pair(target, plan_of(target), source, plan_of(source), {}, progress);
   if (places.empty() || !places.front().check.is_enough() || !places.front().check.agrees()) return found;
   found.target_from_source = places.front().target_from_source;
   found.outcome = SearchOutcome::alike_elsewhere;

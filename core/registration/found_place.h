@@ -16,7 +16,8 @@ struct PairFound {
 };
 
 /// Placed only when the best place is clearly better than any other, agrees with what both scanners saw, and is
-/// determined in every direction. Both scanners stand at the origins of their scans.
+/// determined in every direction. Nothing alike where it is not known where the
+/// scanners stood.
 PairFound found_place(const PreparedScan& target, const PreparedScan& source, const RegistrationOptions& options,
                       Progress& progress);
 

@@ -21,6 +21,8 @@ class RangeImage {
   RangeImage() = default;  ///< of nothing: all is unknown
   explicit RangeImage(const std::vector<Eigen::Vector3f>& points);
 
+  bool is_empty() const { return pixels_.empty(); }
+
   /// Against the ranges of the pixel and the eight around it, each widened by the margin.
   Sight sight_of(const Eigen::Vector3d& place, double margin_m) const;
 

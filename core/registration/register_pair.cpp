@@ -123,7 +123,8 @@ Pose refined(const PreparedScan& target, const PreparedScan& source, Pose pose, 
 
 std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                              const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress) {
-  const auto step = step_of(target.surfaces.front(), source.surfaces.front(), target_from_source, held, axes, progress);
+  const double size_m = piece_of(target, source);
+  const auto step = step_of(target.surface(size_m), source.surface(size_m), target_from_source, held, axes, progress);
   if (!step) return std::nullopt;
   return stepped(target_from_source, *step);
 }

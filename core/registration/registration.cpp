@@ -38,14 +38,14 @@ PoseGraph graph_of(const std::vector<Node>& nodes, const std::vector<Candidate>&
 
 /// Nodes that pairs or control tie to the datum.
 std::vector<bool> tied_nodes(const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
-                             const std::vector<PairResult>& pairs) {
+                             const std::vector<PairResult>& pairs, std::optional<std::size_t> datum) {
   std::vector<bool> tied(nodes.size(), false);
   bool any_control = false;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     tied[i] = nodes[i].control.size() >= least_targets;
     any_control = any_control || tied[i];
   }
-  if (!any_control) tied[0] = true;
+  if (!any_control) tied[datum.value_or(0)] = true;
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -69,7 +69,7 @@ std::string how_placed(const Node& node, bool has_pairs, bool is_datum) {
 void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
                  const PoseGraph& graph, const PoseGraphResult& solved, const RegistrationContext& context,
                  const RegistrationOptions& options) {
-  const auto tied = tied_nodes(nodes, candidates, result.pairs);
+  const auto tied = tied_nodes(nodes, candidates, result.pairs, graph.datum);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     PlacedScan& scan = result.scans[nodes[i].scan];
     bool has_pairs = false;
@@ -136,6 +136,7 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   const std::vector<Candidate> candidates = candidate_pairs(nodes, options);
   Progress matching = progress.part(0.3, "matching scans");
   result.pairs = register_pairs(nodes, candidates, context, options, matching);
+  report_disagreements(result, options);
   Progress adjusting = progress.part(0.1, "adjusting all scans");
   const PoseGraph graph = graph_of(nodes, candidates, result.pairs, options);
   const Adjustment adjustment = adjusted(graph, adjusting);

@@ -46,6 +46,19 @@ std::string mend_of(Suspect::Kind kind) {
 
 }  // namespace
 
+void report_disagreements(RegistrationResult& result, const RegistrationOptions& options) {
+  for (const PairResult& pair : result.pairs) {
+    if (pair.used || pair.overlap < options.least_overlap) continue;
+    char words[160];
+    std::snprintf(
+        words, sizeof words,
+        "not used: only %.0f %% of what both show lies on the same surfaces, so the place found is a wrong one",
+        100.0 * pair.agreeing);
+    result.findings.push_back({Severity::warning, "pair " + pair.source + " - " + pair.target, words,
+                               "check the poses of both scans, and whether the place was changed between them"});
+  }
+}
+
 void report_contradictions(RegistrationResult& result, const Adjustment& adjustment, const PoseGraph& graph,
                            const std::vector<Node>& nodes) {
   for (const Contradiction& contradiction : adjustment.contradictions) {
@@ -103,6 +116,18 @@ void name_undetermined(PlacedScan& scan, const RegistrationOptions& options, Fin
     findings.push_back(
         {Severity::decision, "scan " + scan.name, words, "survey targets for this scan or add scans between"});
   }
+  constexpr double lever_m = 5.0;  // walls stand about so far away
+  const std::pair<const char*, double> turns[] = {
+      {"roll", scan.sigma.roll_rad}, {"pitch", scan.sigma.pitch_rad}, {"yaw", scan.sigma.yaw_rad}};
+  for (const auto& [turn, sigma_rad] : turns) {
+    if (lever_m * sigma_rad <= options.undetermined_sigma_m) continue;
+    scan.undetermined.emplace_back(turn);
+    char words[160];
+    std::snprintf(words, sizeof words, "%s: not determined by the clouds (sigma %.2f degrees), held at the guess", turn,
+                  deg_from_rad(sigma_rad));
+    findings.push_back(
+        {Severity::decision, "scan " + scan.name, words, "survey targets for this scan or add scans between"});
+  }
 }
 
 void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,
@@ -128,6 +153,15 @@ void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, con
   for (const Node& node : nodes) span_m = std::max(span_m, distance_between_m(node.start, nodes.front().start));
   result.datum_sigma_m = std::hypot(options.guess_sigma_m, 0.5 * span_m * rad_from_deg(options.guess_sigma_deg));
   if (!context.axis_direction || result.datum_sigma_m <= options.undetermined_sigma_m) return;
+  const bool guessed = std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.by == Node::By::guess; });
+  if (!guessed) {
+    result.findings.push_back(
+        {Severity::decision, "datum",
+         "there is neither control nor a guess: the survey stands in the frame of its first scan, "
+         "not in the site, and nothing can be said of the design",
+         "survey three targets, or give one scan a pose in job.json"});
+    return;
+  }
   char words[240];
   std::snprintf(
       words, sizeof words,

@@ -6,6 +6,9 @@
 
 namespace adit {
 
+/// Pairs that overlap and yet do not show the same surfaces.
+void report_disagreements(RegistrationResult& result, const RegistrationOptions& options);
+
 /// What contradicted the rest, and what was done about it.
 void report_contradictions(RegistrationResult& result, const Adjustment& adjustment, const PoseGraph& graph,
                            const std::vector<Node>& nodes);

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 
@@ -73,6 +74,16 @@ TEST(PlacementSlow, AScanIsPlacedBesideThoseThatAreKnown) {
     EXPECT_LT(distance_between_m(*places[i].local_from_scan, mine.stations[i]), 0.02);
   }
   EXPECT_EQ(places[2].local_from_scan->matrix(), guess.matrix());
+}
+
+TEST(PlacementSlow, SameBytesOnOneThreadAndTwo) {
+  const std::vector<PreparedScan> scans = all_prepared(sample_mine(MineKind::niches, 7, 2));
+  const auto pose = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Progress progress;
+    return *place_scans(scans, std::vector<std::optional<Pose>>(2), {}, progress)[1].local_from_scan;
+  };
+  EXPECT_EQ(pose(1).matrix(), pose(2).matrix());
 }
 
 TEST(PlacementSlow, ASmoothLiningPlacesNothing) {
