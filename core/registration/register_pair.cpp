@@ -35,25 +35,32 @@ double piece_of(const PreparedScan& target, const PreparedScan& source) {
   return std::max(target.piece_m, source.piece_m);
 }
 
+/// least_reach_m: of Tukey's weights, however little the noise.
 std::optional<Vector6d> step_of(const SurfaceMap& target, const SurfaceMap& source, const Pose& pose,
-                                const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress) {
+                                const HeldDirections& held, const Eigen::Matrix3d& axes, double least_reach_m,
+                                Progress& progress) {
   const std::vector<SurfaceMatch> matches = surface_matches(target, source.pieces(), pose, progress);
   if (matches.size() < least_matches) return std::nullopt;
-  const NormalEquations equations = normal_equations(matches, tukey_reach_m(matches, target.cell_m()));
+  const double reach_m = std::max(least_reach_m, tukey_reach_m(matches, target.cell_m()));
+  const NormalEquations equations = normal_equations(matches, reach_m);
   // Far matches pull less the farther they are: the cost bends less than the weights say, and the steps would be short.
   const double bend = std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.4, 1.0);
   return Vector6d(step_without(equations, held, axes) / bend);
 }
 
+/// The reach is first_reach_m, then half of it, and so on down to what the noise asks for: walls that fit already would
+/// otherwise shut out a floor that does not yet.
 Pose stepped_to_rest(const SurfaceMap& target, const SurfaceMap& source, Pose pose, const HeldDirections& held,
-                     const Eigen::Matrix3d& axes, double least_step_m, Progress& progress) {
+                     const Eigen::Matrix3d& axes, double first_reach_m, double least_step_m, Progress& progress) {
   constexpr int most_steps = 15;
   constexpr double lever_m = 5.0;
-  for (int i = 0; i < most_steps; ++i) {
-    const auto step = step_of(target, source, pose, held, axes, progress);
+  constexpr double least_reach_m = 0.005;
+  double reach_m = first_reach_m;
+  for (int i = 0; i < most_steps; ++i, reach_m *= 0.5) {
+    const auto step = step_of(target, source, pose, held, axes, reach_m, progress);
     if (!step) break;
     pose = stepped(pose, *step);
-    if (step->tail<3>().norm() + lever_m * step->head<3>().norm() < least_step_m) break;
+    if (reach_m < least_reach_m && step->tail<3>().norm() + lever_m * step->head<3>().norm() < least_step_m) break;
   }
   return pose;
 }
@@ -115,16 +122,18 @@ double overlap_at(const PreparedScan& target, const PreparedScan& source, const 
 
 Pose refined(const PreparedScan& target, const PreparedScan& source, Pose pose, const HeldDirections& held,
              const Eigen::Matrix3d& axes, Progress& progress) {
-  const double finest_m = piece_of(target, source);
-  pose =
-      stepped_to_rest(target.surface(2.0 * finest_m), source.surface(2.0 * finest_m), pose, held, axes, 2e-4, progress);
-  return stepped_to_rest(target.surface(finest_m), source.surface(finest_m), pose, held, axes, 2e-5, progress);
+  const double fine_m = piece_of(target, source);
+  const double coarse_m = 2.0 * fine_m;
+  pose = stepped_to_rest(target.surface(coarse_m), source.surface(coarse_m), pose, held, axes, 0.5 * coarse_m, 2e-4,
+                         progress);
+  return stepped_to_rest(target.surface(fine_m), source.surface(fine_m), pose, held, axes, 0.0, 2e-5, progress);
 }
 
 std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                              const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress) {
   const double size_m = piece_of(target, source);
-  const auto step = step_of(target.surface(size_m), source.surface(size_m), target_from_source, held, axes, progress);
+  const auto step =
+      step_of(target.surface(size_m), source.surface(size_m), target_from_source, held, axes, 0.0, progress);
   if (!step) return std::nullopt;
   return stepped(target_from_source, *step);
 }

@@ -6,6 +6,7 @@
 
 #include "core/foundation/angle.h"
 #include "core/geometry/statistics.h"
+#include "core/registration/scan_pairs.h"
 
 namespace adit {
 namespace {
@@ -48,7 +49,7 @@ std::string mend_of(Suspect::Kind kind) {
 
 void report_disagreements(RegistrationResult& result, const RegistrationOptions& options) {
   for (const PairResult& pair : result.pairs) {
-    if (pair.used || pair.overlap < options.least_overlap) continue;
+    if (pair.overlap < options.least_overlap || pair.agreeing >= least_agreeing) continue;
     char words[160];
     std::snprintf(
         words, sizeof words,

@@ -1,6 +1,7 @@
 #include "core/registration/scan_pairs.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "core/foundation/parallel.h"
@@ -12,10 +13,16 @@ namespace {
 
 constexpr std::size_t most_pairs_a_scan = 4;
 
-/// Less than any right place has, and as much as wrong ones in rock have.
-bool agrees(const PairResult& pair) {
-  constexpr double least_agreeing = 0.45;
-  return pair.agreeing >= least_agreeing;
+/// A pair with directions that it does not know has nothing to say of scans which others tie together in all of them.
+void leave_out_weak(std::vector<PairResult>& pairs, const std::vector<Candidate>& candidates, std::size_t nodes) {
+  std::vector<std::size_t> group(nodes);
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (pairs[k].used && pairs[k].undetermined.empty())
+      std::replace(group.begin(), group.end(), std::size_t{group[candidates[k].source]}, group[candidates[k].target]);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (!pairs[k].undetermined.empty() && group[candidates[k].source] == group[candidates[k].target])
+      pairs[k].used = false;
 }
 
 }  // namespace
@@ -62,15 +69,16 @@ std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std
         results[k] = register_pair(*target.prepared, *source.prepared, target.start.inverse() * source.start,
                                    found ? Start::found : Start::guess, axis, options, parts[k]);
         // The guess was too far off for the transform: look for the place without it.
-        if (!found && !agrees(results[k])) {
+        if (!found && results[k].agreeing < least_agreeing) {
           const PairFound other = found_place(*target.prepared, *source.prepared, options, parts[k]);
           if (other.outcome == SearchOutcome::placed)
             results[k] = register_pair(*target.prepared, *source.prepared, other.target_from_source, Start::found, axis,
                                        options, parts[k]);
         }
-        results[k].used = results[k].overlap >= options.least_overlap && agrees(results[k]);
+        results[k].used = results[k].overlap >= options.least_overlap && results[k].agreeing >= least_agreeing;
       },
       1);
+  leave_out_weak(results, candidates, nodes.size());
   return results;
 }
 

@@ -16,7 +16,12 @@ struct Candidate {
 /// Pairs of near stations that overlap at their starts; each scan keeps its nearest few.
 std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const RegistrationOptions& options);
 
-/// One result for each candidate. Too little overlap, or surfaces that do not fit and were seen through: not used.
+/// Of what a pair shows in common, as much must lie on the same surfaces: less than any right place has, and as much as
+/// wrong ones in rock have.
+inline constexpr double least_agreeing = 0.45;
+
+/// One result for each candidate. Not used are those that overlap too little, those that do not agree, and those with
+/// directions that they do not know between scans which other pairs tie together in every direction.
 std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
                                        const RegistrationContext& context, const RegistrationOptions& options,
                                        Progress& progress);

@@ -22,8 +22,9 @@ RegistrationContext along(const Alignment& axis) {
   RegistrationContext context;
   context.axis_direction = [axis](const Eigen::Vector3d& where) {
     const auto at = axis.to_tunnel(where);
-    const Eigen::Vector2d t = axis.horizontal().at(at ? at->s_m : axis.from_m()).tangent();
-    return Eigen::Vector3d(t.x(), t.y(), 0.0);
+    const double s_m = at ? at->s_m : axis.from_m();
+    const Eigen::Vector2d t = axis.horizontal().at(s_m).tangent();
+    return Eigen::Vector3d(t.x(), t.y(), axis.vertical().at(s_m).grade).normalized();
   };
   return context;
 }
