@@ -20,8 +20,9 @@ struct Node {
   std::vector<GraphControl> control;
 };
 
-/// Targets of a scan with their control points. Throws Error for targets without a scan or a control point.
+/// Throws Error when there is no scan, and for targets without a scan or a control point.
 void check_targets(const std::vector<ScanToPlace>& scans, const RegistrationContext& context);
+/// The targets of a scan with their control points; the node is 0.
 std::vector<GraphControl> control_of(const std::string& scan, const RegistrationContext& context);
 
 /// Prepares all scans; the order of the result is theirs.

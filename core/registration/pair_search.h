@@ -13,7 +13,6 @@ namespace adit {
 struct PairPlace {
   Pose target_from_source = Pose::Identity();
   FitCheck check;
-  double score = 0.0;  ///< of the transform in the last cells, whole; least is best
 };
 
 struct PairSearchOptions {

@@ -140,7 +140,10 @@ PlanView plan_view(const DistributionMap& cells) {
   const Pose level_from_scan = view.scan_from_level.inverse();
   for (const NormalDistribution* piece : pieces) {
     const Eigen::Vector3d at = level_from_scan * piece->mean;
-    if (at.z() > 0.5 && at.z() < 3.5 && std::abs(up.dot(piece->normal)) < 0.5) view.walls.emplace_back(at.head<2>());
+    // Over a deep, tilted floor the level frame begins far from the scanner: its map reaches no farther than this.
+    const bool in_reach = at.head<2>().norm() < most_range_m;
+    if (in_reach && at.z() > 0.5 && at.z() < 3.5 && std::abs(up.dot(piece->normal)) < 0.5)
+      view.walls.emplace_back(at.head<2>());
   }
   return view;
 }

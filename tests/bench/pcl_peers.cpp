@@ -56,6 +56,15 @@ Pose aligned(Registration& registration, const Pointer& target, const Pointer& s
   return rigid(registration.getFinalTransformation());
 }
 
+template <typename Icp, typename Pointer>
+Pose icp_aligned(const Pointer& target, const Pointer& source, const Pose& guess) {
+  Icp icp;
+  icp.setMaxCorrespondenceDistance(reach_m);
+  icp.setMaximumIterations(100);
+  icp.setTransformationEpsilon(1e-10);
+  return aligned(icp, target, source, guess);
+}
+
 }  // namespace
 
 Pose pcl_gicp(const Points& target, const Points& source, const Pose& guess) {
@@ -75,19 +84,13 @@ Pose pcl_ndt(const Points& target, const Points& source, const Pose& guess) {
 }
 
 Pose pcl_icp(const Points& target, const Points& source, const Pose& guess) {
-  pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ> icp;
-  icp.setMaxCorrespondenceDistance(reach_m);
-  icp.setMaximumIterations(100);
-  icp.setTransformationEpsilon(1e-10);
-  return aligned(icp, thinned(target), thinned(source), guess);
+  using Icp = pcl::IterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ>;
+  return icp_aligned<Icp>(thinned(target), thinned(source), guess);
 }
 
 Pose pcl_icp_to_plane(const Points& target, const Points& source, const Pose& guess) {
-  pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal> icp;
-  icp.setMaxCorrespondenceDistance(reach_m);
-  icp.setMaximumIterations(100);
-  icp.setTransformationEpsilon(1e-10);
-  return aligned(icp, with_normals(thinned(target)), with_normals(thinned(source)), guess);
+  using Icp = pcl::IterativeClosestPointWithNormals<pcl::PointNormal, pcl::PointNormal>;
+  return icp_aligned<Icp>(with_normals(thinned(target)), with_normals(thinned(source)), guess);
 }
 
 }  // namespace adit::bench

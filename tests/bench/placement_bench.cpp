@@ -50,10 +50,8 @@ std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t seed) {
 }
 
 Eigen::Matrix3d axes_at(const tests::SampleMine& mine, const Pose& station) {
-  const Alignment& axis = mine.tunnels.front().design().alignment();
-  const auto at = axis.to_tunnel(station.translation());
-  const Eigen::Vector2d t = axis.horizontal().at(at ? at->s_m : axis.from_m()).tangent();
-  return tunnel_axes(Eigen::Vector3d(t.x(), t.y(), 0.0));
+  return tunnel_axes(
+      tests::context_along(mine.tunnels.front().design().alignment()).axis_direction(station.translation()));
 }
 
 }  // namespace

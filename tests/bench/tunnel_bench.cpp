@@ -18,17 +18,6 @@ struct Survey {
   RegistrationContext context;
 };
 
-RegistrationContext along(const Alignment& axis) {
-  RegistrationContext context;
-  context.axis_direction = [axis](const Eigen::Vector3d& where) {
-    const auto at = axis.to_tunnel(where);
-    const double s_m = at ? at->s_m : axis.from_m();
-    const Eigen::Vector2d t = axis.horizontal().at(s_m).tangent();
-    return Eigen::Vector3d(t.x(), t.y(), axis.vertical().at(s_m).grade).normalized();
-  };
-  return context;
-}
-
 Pose guess_of(const Pose& truth, std::uint64_t seed, std::uint64_t i, double off_m, double off_deg) {
   const Random random(seed, 600 + i);
   const Eigen::Vector3d direction(random.normal(0), random.normal(1), 0.3 * random.normal(2));
@@ -102,7 +91,7 @@ Survey chain_of_thirty() {
   for (int i = 0; i < stations; ++i)
     survey.mine.stations.push_back(
         tests::mine_station(axis, 12.0 + apart_m * i, Random(5), static_cast<std::uint64_t>(i), 0.5));
-  survey.context = along(axis);
+  survey.context = tests::context_along(axis);
   scan_all(survey, 5, 0.5, 2.0);
   return survey;
 }
@@ -117,7 +106,7 @@ Survey smooth_pair(std::uint64_t seed) {
   survey.mine.tunnels.push_back(tests::mine_tunnel(axis, 200.0, seed, smooth));
   for (const double s : {90.0, 98.0})
     survey.mine.stations.push_back(tests::mine_station(axis, s, Random(seed), static_cast<std::uint64_t>(s), 0.5));
-  survey.context = along(axis);
+  survey.context = tests::context_along(axis);
   scan_all(survey, seed, 0.5, 1.0);
   survey.scans[0].local_from_scan_guess = survey.mine.stations[0];
   return survey;

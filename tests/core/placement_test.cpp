@@ -87,15 +87,10 @@ TEST(PlacementSlow, SameBytesOnOneThreadAndTwo) {
 }
 
 TEST(PlacementSlow, ASmoothLiningPlacesNothing) {
-  const SampleMine mine = sample_mine(MineKind::straight, 1, 2, smooth_lining());
-  SampleMine far_from_face = mine;
-  const Alignment& axis = mine.tunnels.front().design().alignment();
-  const RockTunnel longer =
-      mine_tunnel(mine_axis(axis.to_site({0, 0, 0}), 0.3, 200.0, 0.0, 0.0), 190.0, 1, smooth_lining());
-  far_from_face.tunnels = {longer};
-  const Alignment& longer_axis = longer.design().alignment();
-  far_from_face.stations = {mine_station(longer_axis, 80.0, Random(4), 1, 0.0),
-                            mine_station(longer_axis, 89.0, Random(4), 2, 0.0)};
+  SampleMine far_from_face;
+  const Alignment axis = mine_axis({100, 200, 30}, 0.3, 200.0, 0.0, 0.0);
+  far_from_face.tunnels.push_back(mine_tunnel(axis, 190.0, 1, smooth_lining()));
+  far_from_face.stations = {mine_station(axis, 80.0, Random(4), 1, 0.0), mine_station(axis, 89.0, Random(4), 2, 0.0)};
   const std::vector<PreparedScan> scans = all_prepared(far_from_face);
   Progress progress;
   const auto places = place_scans(scans, std::vector<std::optional<Pose>>(2), {}, progress);
@@ -116,6 +111,20 @@ TEST(PlanView, FindsTheFloorUnderATiltedScanner) {
   const Eigen::Vector3d up = mine.stations[0].linear() * view.scan_from_level.linear().col(2);
   EXPECT_GT(up.z(), std::cos(std::atan(0.1) + 0.02));
   EXPECT_GT(view.walls.size(), 200U);
+}
+
+TEST(PlanView, KeepsWithinItsMapOverADeepTiltedFloor) {
+  // Looking down a shaft: a sloping floor 20 m below, and walls as far away as a scan reaches.
+  std::vector<Eigen::Vector3f> points;
+  for (float x = -9.0F; x < 9.0F; x += 0.05F)
+    for (float y = -9.0F; y < 9.0F; y += 0.05F) points.emplace_back(x, y, -20.0F + 0.4F * x);
+  for (float y = -4.0F; y < 4.0F; y += 0.05F)
+    for (float z = -20.0F; z < 10.0F; z += 0.05F)
+      for (const float x : {-24.0F, -16.0F, 16.0F, 24.0F}) points.emplace_back(x, y, z);
+  const PlanView view = plan_view(DistributionMap(cell_sums(points, 0.4), 0.4, {}));
+  ASSERT_TRUE(view.has_floor);
+  for (const auto& wall : view.walls) EXPECT_LT(wall.norm(), 25.0);
+  EXPECT_FALSE(plan_matches(view, view, 22.0, 10).empty());
 }
 
 TEST(RangeImage, KnowsWhatWasSeenThrough) {

@@ -14,17 +14,6 @@ namespace {
 
 using namespace tests;
 
-RegistrationContext context_along(const DesignTunnel& design) {
-  RegistrationContext context;
-  const Alignment axis = design.alignment();
-  context.axis_direction = [axis](const Eigen::Vector3d& where) {
-    const auto at = axis.to_tunnel(where);
-    const Eigen::Vector2d t = axis.horizontal().at(at ? at->s_m : axis.from_m()).tangent();
-    return Eigen::Vector3d(t.x(), t.y(), 0.0);
-  };
-  return context;
-}
-
 struct TwoScans {
   RockTunnel rock = sample_rock();
   Pose first = station(rock.design(), 36.0, 10.0);
@@ -38,7 +27,8 @@ struct TwoScans {
 TEST(RegistrationSlow, PlacesAScanGuessedHalfAMetreAndTwoDegreesOff) {
   const TwoScans two;
   Progress progress;
-  const RegistrationResult result = register_scans(two.scans(), context_along(two.rock.design()), {}, progress);
+  const RegistrationResult result =
+      register_scans(two.scans(), context_along(two.rock.design().alignment()), {}, progress);
   ASSERT_EQ(result.scans.size(), 2U);
   // Everything fits, but without control the survey stands where the first guess put it: only that is to be decided.
   EXPECT_FALSE(result.accepted);
@@ -60,7 +50,9 @@ TEST(RegistrationSlow, GivesTheSameBytesOnOneThreadAndTwo) {
   const auto poses = [&](int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     Progress progress;
-    return register_scans(two.scans(), context_along(two.rock.design()), {}, progress).scans[1].local_from_scan;
+    return register_scans(two.scans(), context_along(two.rock.design().alignment()), {}, progress)
+        .scans[1]
+        .local_from_scan;
   };
   EXPECT_EQ(poses(1).matrix(), poses(2).matrix());
 }
@@ -82,7 +74,7 @@ TEST(RegistrationSlow, AFeaturelessTubeIsUndeterminedAlongAndHeldAtItsGuess) {
   Progress progress;
   const RegistrationResult result = register_scans(
       {scan_to_place("A", scan_at(tube, first, 1), first), scan_to_place("B", scan_at(tube, second, 2), guess)},
-      context_along(tube.design()), {}, progress);
+      context_along(tube.design().alignment()), {}, progress);
   EXPECT_FALSE(result.accepted);
   ASSERT_FALSE(result.pairs[0].undetermined.empty());
   EXPECT_EQ(result.pairs[0].undetermined.front(), "along");
@@ -103,7 +95,7 @@ TEST(RegistrationSlow, ControlDeterminesWhatACloudCannot) {
   smooth.clutter = false;
   const RockTunnel tube(sample_design(arch_profile()), smooth);
   const std::vector<Pose> truth{station(tube.design(), 50.0, 0.0), station(tube.design(), 58.0, 90.0)};
-  RegistrationContext context = context_along(tube.design());
+  RegistrationContext context = context_along(tube.design().alignment());
   for (int k = 0; k < 5; ++k) {
     const double s = 48.0 + 3.0 * k;
     const Eigen::Vector3d place = tube.design().alignment().to_site({s, k % 2 == 0 ? -3.9 : 3.9, 1.0 + 0.5 * k});
@@ -133,7 +125,7 @@ TEST(Registration, AScanOfAnotherTunnelIsSaidNotGuessed) {
       scan_to_place("lost", scan_tunnel(elsewhere.tunnels, elsewhere.stations[0], scanner, {}, progress), pose);
   lost.local_from_scan_guess.reset();
   const RegistrationResult result = register_scans({scan_to_place("A", scan_at(rock, pose, 1, 20000), pose), lost},
-                                                   context_along(rock.design()), {}, progress);
+                                                   context_along(rock.design().alignment()), {}, progress);
   EXPECT_FALSE(result.scans[1].placed);
   EXPECT_EQ(result.scans[1].placed_by, "not placed");
   EXPECT_FALSE(result.accepted);

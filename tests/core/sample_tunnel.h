@@ -74,6 +74,18 @@ inline ScanToPlace scan_to_place(const std::string& name, PointCloud cloud, cons
   return scan;
 }
 
+/// Nothing known but the axis of the tunnel, frame: local.
+inline RegistrationContext context_along(const Alignment& axis) {
+  RegistrationContext context;
+  context.axis_direction = [axis](const Eigen::Vector3d& where) {
+    const auto at = axis.to_tunnel(where);
+    const double s_m = at ? at->s_m : axis.from_m();
+    const Eigen::Vector2d t = axis.horizontal().at(s_m).tangent();
+    return Eigen::Vector3d(t.x(), t.y(), axis.vertical().at(s_m).grade).normalized();
+  };
+  return context;
+}
+
 /// The pose moved by shift and turned about the vertical.
 inline Pose off(Pose pose, const Eigen::Vector3d& shift_m, double yaw_deg) {
   pose.translation() += shift_m;
