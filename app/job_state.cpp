@@ -42,7 +42,7 @@ void expect_inputs_apart(const JobState& state, const std::vector<std::string>& 
     for (const char* name :
          {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "results.json", "report.pdf", ".lock"})
       if (real(state.out / name) == input) refuse();
-    for (const char* name : {"import", "steps", "report"}) {
+    for (const char* name : {"import", "steps", "report", "figures"}) {
       const fs::path below = input.lexically_relative(real(state.out / name));
       if (!below.empty() && *below.begin() != "..") refuse();
     }

@@ -89,6 +89,8 @@ json registration_json(const Results& results) {
     out["control"].push_back({{"scan", c.scan},
                               {"id", c.id},
                               {"residual_mm", {1e3 * c.residual_m.x(), 1e3 * c.residual_m.y(), 1e3 * c.residual_m.z()}},
+                              {"redundancy", c.redundancy},
+                              {"normalised", c.normalised},
                               {"used", c.used}});
   out["datum_sigma_mm"] = 1e3 * registration.datum_sigma_m;
   out["control_rms_mm"] = 1e3 * registration.control_rms_m;
@@ -205,6 +207,9 @@ std::string results_text(const Results& results) {
   root["findings"] = findings_json(all_findings(results));
   root["timing_s"] = json::object();
   for (const StepTime& time : results.timing) root["timing_s"][time.step] = time.seconds;
+  for (const PairResult& pair : results.registration.pairs)
+    if (pair.seconds > 0.0)
+      root["pair_timing_s"].push_back({{"source", pair.source}, {"target", pair.target}, {"seconds", pair.seconds}});
   root["peak_memory_bytes"] = results.peak_memory_bytes;
   return root.dump(1) + "\n";
 }

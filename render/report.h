@@ -14,6 +14,7 @@
 #include "core/profiling/deviation_map.h"
 #include "core/surface/mesh.h"
 #include "render/gl_context.h"
+#include "render/overlap_drawing.h"
 
 namespace adit::render {
 
@@ -33,8 +34,9 @@ struct ReportContent {
   const MeshArrays* mesh = nullptr;
   std::vector<float> mesh_deviations_m;  ///< one for each mesh point, NaN where unknown; or empty
   std::vector<OverviewCloud> clouds;
-  std::vector<ControlPoint> control;  ///< local frame
-  std::string date = "2000-01-01";    ///< ISO 8601, fixed by the caller: the same content gives the same bytes
+  std::vector<PairSection> pair_sections;  ///< of used pairs, the worst first
+  std::vector<ControlPoint> control;       ///< local frame
+  std::string date = "2000-01-01";         ///< ISO 8601, fixed by the caller: the same content gives the same bytes
 };
 
 struct ReportPicture {

@@ -1,5 +1,6 @@
 // Poses of all scans: pairs, control, one adjustment.
 
+#include <chrono>
 #include <cstdio>
 
 #include "app/scan_places.h"
@@ -18,7 +19,7 @@ bool wanted(const JobState&) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "register 4|" + state.keys.at("import");
+  std::string text = "register 5|" + state.keys.at("import");
   for (const JobScan& scan : state.job.scans) {
     if (!scan.position) continue;
     for (const double value : {scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,
@@ -28,7 +29,8 @@ std::string depends_on(const JobState& state) {
   }
   for (const std::string* file : {&state.job.control, &state.job.targets, &state.job.alignment})
     if (!file->empty()) text += "|" + state.input_sha256.at(*file);
-  return text + "|" + state.job.alignment_name + "|" + options_text(state.job.options.registration);
+  return text + "|" + state.job.alignment_name + "|" + options_text(state.job.options.registration) + "|" +
+         options_text(state.job.options.registration.icp);
 }
 
 /// site-from-file of a scan before registration: the job's word, the file's own, or coordinates that are the site's.
@@ -60,6 +62,9 @@ RegistrationContext context_of(const JobState& state) {
     context.control.push_back(point);
   }
   context.targets = state.targets;
+  context.clock_s = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
   for (std::size_t i = 0; i < state.stores.size(); ++i)
     for (auto& target : context.targets)
       if (target.scan == state.job.scans[i].name) target.position -= state.stores[i]->offset();

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "app/pair_sections.h"
 #include "app/step.h"
 #include "core/foundation/error.h"
 #include "io/atomic_file.h"
@@ -14,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t overview_points = 120000;  // a scan
+constexpr std::size_t most_pair_sections = 12;
 
 bool wanted(const JobState&) {
   return true;
@@ -21,7 +23,7 @@ bool wanted(const JobState&) {
 
 std::string depends_on(const JobState& state) {
   std::string text =
-      "report 1|" + state.results.version + "|" + state.job.name + "|" + state.job.client + "|" + state.job.surveyor;
+      "report 2|" + state.results.version + "|" + state.job.name + "|" + state.job.client + "|" + state.job.surveyor;
   for (const auto& [step, key] : state.keys) text += "|" + step + key;
   const auto truth = state.input_sha256.find("truth.json");
   return text + (truth == state.input_sha256.end() ? "" : "|" + truth->second);
@@ -55,7 +57,7 @@ render::OverviewCloud overview(const JobState& state, std::size_t scan) {
   return cloud;
 }
 
-render::ReportContent content_of(const JobState& state) {
+render::ReportContent content_of(const JobState& state, Progress& progress) {
   render::ReportContent content;
   content.job = &state.job;
   content.results = &state.results;
@@ -67,6 +69,7 @@ render::ReportContent content_of(const JobState& state) {
   }
   for (std::size_t i = 0; i < state.stores.size(); ++i)
     if (state.results.registration.scans[i].placed) content.clouds.push_back(overview(state, i));
+  content.pair_sections = pair_sections(state, most_pair_sections, progress);
   for (ControlPoint point : state.control) {
     point.position = state.results.import.origin.to_local(point.position);
     content.control.push_back(point);
@@ -78,7 +81,10 @@ render::ReportContent content_of(const JobState& state) {
 LeftFiles run(JobState& state, const StepContext& context, Progress& progress) {
   if (!context.make_gl_context) throw Error("this program has no way to draw 3D pictures", "report", "use adit report");
   const auto gl = context.make_gl_context();
-  const render::ReportFiles files = render::draw_report(content_of(state), *gl, progress);
+  Progress reading = progress.part(0.2, "reading points for the report");
+  const render::ReportContent content = content_of(state, reading);
+  Progress drawing = progress.part(0.8, "drawing the report");
+  const render::ReportFiles files = render::draw_report(content, *gl, drawing);
   fs::remove_all(state.out / "report");  // pictures of sections that are no longer cut
   fs::create_directories(state.out / "report");
   LeftFiles left;

@@ -16,6 +16,16 @@
 
 namespace adit {
 
+/// Shows a value of an enumeration to a visitor as a choice among its names, in their order.
+template <typename Visitor, typename Value>
+void visit_choice(Visitor& v, const char* name, Value& value, std::initializer_list<const char*> words,
+                  const char* help) {
+  std::string word = words.begin()[static_cast<std::size_t>(value)];
+  v.choice(name, word, words, help);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (word == words.begin()[i]) value = static_cast<Value>(i);
+}
+
 /// One option as text, for pages and tables.
 struct OptionRow {
   std::string group;

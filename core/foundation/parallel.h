@@ -39,4 +39,22 @@ Value parallel_ordered_sum(std::size_t n, std::size_t block, Value zero, const B
   return sum;
 }
 
+/// Lists of fixed blocks, one after the other: block_list(begin, end) returns the std::vector of one block.
+template <typename BlockList>
+auto parallel_ordered_list(std::size_t n, std::size_t block, const BlockList& block_list) {
+  using List = decltype(block_list(n, n));
+  std::vector<List> parts((n + block - 1) / block);
+  parallel_blocks(n, block, [&](std::size_t begin, std::size_t end) { parts[begin / block] = block_list(begin, end); });
+  std::vector<std::size_t> begins{0};
+  for (const List& part : parts) begins.push_back(begins.back() + part.size());
+  List all(begins.back());
+  parallel_for_each_index(
+      parts.size(),
+      [&](std::size_t i) {
+        std::copy(parts[i].begin(), parts[i].end(), all.begin() + static_cast<std::ptrdiff_t>(begins[i]));
+      },
+      1);
+  return all;
+}
+
 }  // namespace adit

@@ -10,21 +10,21 @@ namespace adit {
 namespace {
 
 constexpr std::size_t block_points = 131072;  // fixed, so that sums do not depend on the threads
-constexpr std::size_t tiles_at_once = 4;      // fixed as well
+constexpr std::size_t tiles_at_once = 1;      // fixed as well
 constexpr double points_a_cell = 64.0;
 
-std::uint64_t key_of(const Eigen::Vector3f& point, double cell_m) {
-  const Eigen::Vector3d cell = (point.cast<double>() / cell_m).array().floor() + half_cells;
-  if (!(cell.minCoeff() >= 0.0 && cell.maxCoeff() < 2.0 * half_cells))
+/// Whole numbers of a cell, packed: cheaper than the curve's key for every point.
+std::uint64_t packed_cell(const Eigen::Vector3d& x, double cell_m) {
+  const Eigen::Vector3d cells = in_cells(x, cell_m);
+  if (!is_numbered(cells))
     throw Error("a point lies too far from the scanner for cells of " + std::to_string(cell_m) + " m", "",
                 "remove stray points or use larger cells");
-  return cell_key(cell);
+  const auto whole = [&](int axis) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(cells[axis])); };
+  return whole(0) | whole(1) << 21U | whole(2) << 42U;
 }
 
-void add(CellSums& to, const CellSums& more) {
-  to.points += more.points;
-  to.first += more.first;
-  to.second += more.second;
+std::uint64_t key_of_packed(std::uint64_t cell) {
+  return morton_key(cell, cell >> 21U, cell >> 42U);  // each looks at its low 21 bits
 }
 
 /// Cells of a block of points, by open addressing while they come, in order at the end.
@@ -32,15 +32,21 @@ class BlockSums {
  public:
   BlockSums() { grow(1024); }
 
-  void add(std::uint64_t key, const Eigen::Vector3d& x) {
-    CellSums& cell = cell_of(key);
-    cell.points += 1.0;
-    cell.first += x;
-    cell.second.noalias() += x * x.transpose();
-  }
-  std::vector<CellSums> in_order() {
-    std::sort(cells_.begin(), cells_.end(), [](const CellSums& a, const CellSums& b) { return a.key < b.key; });
-    return std::move(cells_);
+  void add(const Eigen::Vector3d& x, double cell_m) { cell_of(packed_cell(x, cell_m)).add(x); }
+
+  std::vector<CellSums> in_order() const {
+    std::vector<KeyedIndex> order;
+    order.reserve(cells_.size());
+    for (const CellSums& cell : cells_)
+      order.push_back({key_of_packed(cell.key), static_cast<std::uint32_t>(order.size())});
+    std::sort(order.begin(), order.end(), [](const KeyedIndex& a, const KeyedIndex& b) { return a.key < b.key; });
+    std::vector<CellSums> sums;
+    sums.reserve(cells_.size());
+    for (const KeyedIndex& next : order) {
+      sums.push_back(cells_[next.index]);
+      sums.back().key = next.key;
+    }
+    return sums;
   }
 
  private:
@@ -50,7 +56,7 @@ class BlockSums {
     std::size_t i = place_of(key);
     while (slots_[i] != 0 && cells_[slots_[i] - 1].key != key) i = (i + 1) & (slots_.size() - 1);
     if (slots_[i] == 0) {
-      cells_.push_back({key, 0.0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()});
+      cells_.emplace_back().key = key;
       slots_[i] = static_cast<std::uint32_t>(cells_.size());
     }
     last_ = slots_[i] - 1;
@@ -85,7 +91,7 @@ std::vector<CellSums> merged(const std::vector<CellSums>& a, const std::vector<C
       result.push_back(b[k++]);
     } else {
       result.push_back(a[i++]);
-      add(result.back(), b[k++]);
+      result.back() += b[k++];
     }
   }
   return result;
@@ -115,11 +121,25 @@ std::size_t enough_points(const BoundingBox& box, double cell_m) {
 
 }  // namespace
 
+CellSums& CellSums::operator+=(const CellSums& more) {
+  points += more.points;
+  first += more.first;
+  for (std::size_t i = 0; i < second.size(); ++i) second[i] += more.second[i];
+  return *this;
+}
+
+Eigen::Matrix3d CellSums::covariance() const {
+  Eigen::Matrix3d squares;
+  squares << second[0], second[1], second[2], second[1], second[3], second[4], second[2], second[4], second[5];
+  const Eigen::Vector3d middle = mean();
+  return (squares - points * middle * middle.transpose()) / (points - 1.0);
+}
+
 std::vector<CellSums> cell_sums(std::span<const Eigen::Vector3f> points, double cell_m) {
   std::vector<std::vector<CellSums>> parts((points.size() + block_points - 1) / block_points);
   parallel_blocks(points.size(), block_points, [&](std::size_t begin, std::size_t end) {
     BlockSums sums;
-    for (std::size_t i = begin; i < end; ++i) sums.add(key_of(points[i], cell_m), points[i].cast<double>());
+    for (std::size_t i = begin; i < end; ++i) sums.add(points[i].cast<double>(), cell_m);
     parts[begin / block_points] = sums.in_order();
   });
   return merged(std::move(parts));
@@ -138,7 +158,7 @@ std::vector<CellSums> cell_sums(const TileSource& source, double cell_m, double 
           for (const auto& p : source.positions(t, enough_points(source.box(t), cell_m))) {
             const Eigen::Vector3d x = p.cast<double>();
             const double range = x.norm();
-            if (range >= least_range_m && range <= most_range_m) sums.add(key_of(p, cell_m), x);
+            if (range >= least_range_m && range <= most_range_m) sums.add(x, cell_m);
           }
         }
         groups[g] = sums.in_order();
@@ -148,18 +168,23 @@ std::vector<CellSums> cell_sums(const TileSource& source, double cell_m, double 
 }
 
 std::vector<CellSums> with_double_cells(std::vector<CellSums> sums) {
-  constexpr std::uint64_t axis_mask = (std::uint64_t{1} << 21U) - 1;
-  const auto half_of = [](std::uint64_t cell) { return (cell >> 1U) + (std::uint64_t{1} << 19U); };
-  for (CellSums& cell : sums)
-    cell.key = half_of(cell.key & axis_mask) | half_of(cell.key >> 21U & axis_mask) << 21U |
-               half_of(cell.key >> 42U & axis_mask) << 42U;
-  std::stable_sort(sums.begin(), sums.end(), [](const CellSums& a, const CellSums& b) { return a.key < b.key; });
+  // Along the curve the parts of a larger cell follow one another. Half a cell's number, and a quarter of all cells
+  // added to keep the origin in the middle, is a turn of the two highest bits of each axis that keeps the order.
+  constexpr unsigned quarter = 57;  // bit 19 of x
+  const auto key_of_double = [](std::uint64_t key) {
+    const std::uint64_t half = key >> 3U;
+    const std::uint64_t top = half >> quarter;
+    return (half & ((std::uint64_t{1} << quarter) - 1)) | top << (quarter + 3) | (~top & 7U) << quarter;
+  };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    if (kept > 0 && sums[kept - 1].key == sums[i].key)
-      add(sums[kept - 1], sums[i]);
-    else
-      sums[kept++] = sums[i];
+    const std::uint64_t key = key_of_double(sums[i].key);
+    if (kept > 0 && sums[kept - 1].key == key) {
+      sums[kept - 1] += sums[i];
+    } else {
+      sums[kept] = sums[i];
+      sums[kept++].key = key;
+    }
   }
   sums.resize(kept);
   return sums;

@@ -30,6 +30,11 @@ struct ControlResidual {
   std::string id;
   Eigen::Vector3d residual_m = Eigen::Vector3d::Zero();
   bool used = true;  ///< false when the adjustment found it wrong and left it out
+  /// How much of an error of this target the others would show, mean of the three axes (Baarda 1968): 0 nothing checks
+  /// it, 1 the rest knows its place without it. And the greatest residual of an axis in the sigmas that residuals
+  /// there have. Both 0 for targets that are not used.
+  double redundancy = 0.0;
+  double normalised = 0.0;
 };
 
 /// Rigid transform (least squares, Arun et al. 1987 / Umeyama without scale) target_from_source over pairs of points.

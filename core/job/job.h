@@ -55,6 +55,7 @@ template <typename Options, typename Visit>
 void for_each_group(Options& options, const Visit& visit) {
   visit("import", options.import);
   visit("registration", options.registration);
+  visit("icp", options.registration.icp);
   visit("profiling", options.profiling);
   visit("surface", options.surface);
 }

@@ -14,10 +14,9 @@ namespace {
 NormalDistribution distribution_of(const CellSums& sums, const DistributionOptions& options) {
   NormalDistribution result;
   result.points = sums.points;
-  result.mean = sums.first / sums.points;
-  const Eigen::Matrix3d scatter =
-      (sums.second - sums.points * result.mean * result.mean.transpose()) / (sums.points - 1.0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
+  result.mean = sums.mean();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+  axes.computeDirect(sums.covariance());
   const double share = options.least_sigma_share * options.least_sigma_share * axes.eigenvalues()[2];
   const double least = std::max(options.point_sigma_m * options.point_sigma_m, share);
   const Eigen::Vector3d values = axes.eigenvalues().cwiseMax(0.0);

@@ -32,7 +32,8 @@ PairFound found_place(const PreparedScan& target, const PreparedScan& source, co
     if (!same_place(other.target_from_source, found.target_from_source) &&
         other.check.worth() > places.front().check.worth() - least_lead)
       return found;
-  found.target_from_source = refined(target, source, found.target_from_source, {}, tunnel_axes(target.axis), progress);
+  found.target_from_source =
+      refined(target, source, found.target_from_source, {}, tunnel_axes(target.axis), options, progress);
   const PairInformation known =
       pair_information(target, source, found.target_from_source, target.axis, options, progress);
   found.outcome = known.undetermined == HeldDirections{} ? SearchOutcome::placed : SearchOutcome::undetermined;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/registration/ndt_score.h"
 #include "core/registration/newton.h"
 
 namespace adit {
@@ -50,18 +51,28 @@ NewtonResult best_along(const NewtonResult& first, double search_m, const Descen
   return best;
 }
 
+std::vector<NormalDistribution> as_points(const DistributionMap& cells) {
+  std::vector<NormalDistribution> points(cells.distributions().size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].mean = cells.distributions()[i].mean;
+  return points;
+}
+
 }  // namespace
 
 NdtAlignment ndt_align(const DistributionPyramid& target, const DistributionPyramid& source, const Pose& guess,
                        const NdtOptions& options, Progress& progress) {
   NdtAlignment result;
   std::vector<Pose> starts{guess};
+  std::vector<NormalDistribution> points;
+  if (options.sources == NdtSources::points) points = as_points(source.levels.front());
   const std::size_t finest = target.level_near(options.finest_cell_m, 1);
   const std::size_t coarsest = target.level_near(options.coarsest_cell_m, finest);
   for (std::size_t level = coarsest + 1; level-- > finest;) {
     progress.step(coarsest - level, coarsest - finest + 1);
     const DistributionMap& cells = target.levels[level];
-    const auto& sources = source.levels[source.level_near(0.5 * cells.cell_m())].distributions();
+    const auto& sources = options.sources == NdtSources::points
+                              ? points
+                              : source.levels[source.level_near(0.5 * cells.cell_m())].distributions();
     const auto score = [&](const Pose& at) { return ndt_score(cells, sources, at, options.score, progress); };
     const auto descended = [&](const Pose& start) {
       NewtonResult found =

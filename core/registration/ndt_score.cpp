@@ -60,7 +60,9 @@ class Overlay {
     l.head<3>() -= 2.0 * w.cross(v_);
     Jacobian a = j;
     a.leftCols<3>() -= source_.covariance * cross_matrix(v_) - cross_matrix(w);
-    Matrix6d ll = 2.0 * a.transpose() * inverse_ * a;
+    const Jacobian weighted = 2.0 * inverse_ * a;
+    Matrix6d ll;
+    ll.noalias() = a.transpose() * weighted;
     const Eigen::Matrix3d turn = cross_matrix(v_);
     ll.topLeftCorner<3, 3>() -= 2.0 * turn.transpose() * source_.covariance * turn;
     if (full) ll.topLeftCorner<3, 3>() += 2.0 * rotation_curvature(v_, source_.arm) - 2.0 * rotation_curvature(v_, w);

@@ -6,21 +6,9 @@
 #include "core/foundation/progress.h"
 #include "core/geometry/pose.h"
 #include "core/registration/distribution_map.h"
+#include "core/registration/ndt_options.h"
 
 namespace adit {
-
-/// How a step turns a point.
-enum class RotationForm {
-  full,        ///< exp([phi]x): the second derivatives are those of a rotation
-  small_angle  ///< I + [phi]x (Magnusson et al., eq. 9 and 10): they are zero
-};
-
-struct NdtScoreOptions {
-  RotationForm rotation = RotationForm::full;
-  /// Share of points that lie on nothing the other scan knows. Makes d1 and d2 of the mixture (Magnusson's thesis 2009,
-  /// eq. 6.9 and 6.10) in units of the cell, so that small cells behave as large ones do.
-  double outlier_share = 0.55;
-};
 
 /// Score (least is best) with gradient and Hessian about (rotation [rad], translation [m]) in the target's frame at the
 /// source's origin.

@@ -1,10 +1,12 @@
 #include "core/registration/nodes.h"
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <set>
 
 #include "core/foundation/error.h"
+#include "core/foundation/parallel.h"
 #include "core/registration/placement.h"
 
 namespace adit {
@@ -68,13 +70,23 @@ std::vector<GraphControl> control_of(const std::string& scan, const Registration
 
 std::vector<PreparedScan> prepare_scans(const std::vector<ScanToPlace>& scans, const RegistrationOptions& options,
                                         Progress& progress) {
-  std::vector<PreparedScan> prepared;
-  for (const ScanToPlace& scan : scans) {
-    Progress part = progress.part(1.0 / static_cast<double>(scans.size()), "preparing scan " + scan.name);
-    prepared.push_back(prepare_scan(scan.name, *scan.points, options.spacing_m,
-                                    scan.scanner_at_origin ? least_range_m : 0.0,
-                                    scan.scanner_at_origin ? most_range_m : 1e9, part));
-  }
+  std::vector<Progress> parts;
+  for (const ScanToPlace& scan : scans)
+    parts.push_back(progress.part(1.0 / static_cast<double>(scans.size()), "preparing scan " + scan.name));
+  std::vector<PreparedScan> prepared(scans.size());
+  std::vector<std::exception_ptr> failed(scans.size());
+  const auto prepare = [&](std::size_t i) {
+    const bool limited = scans[i].scanner_at_origin;
+    try {
+      prepared[i] = prepare_scan(scans[i].name, *scans[i].points, options.spacing_m, limited ? least_range_m : 0.0,
+                                 limited ? most_range_m : 1e9, parts[i]);
+    } catch (...) {
+      failed[i] = std::current_exception();
+    }
+  };
+  parallel_for_each_index(scans.size(), prepare, 1);
+  for (const std::exception_ptr& error : failed)
+    if (error) std::rethrow_exception(error);  // the first in the order of the job, whichever failed first
   return prepared;
 }
 

@@ -9,15 +9,18 @@
 #include "core/geometry/pose_step.h"
 #include "core/geometry/statistics.h"
 #include "core/registration/fit_check.h"
+#include "core/registration/icp.h"
 #include "core/registration/ndt.h"
 
 namespace adit {
 namespace {
 
+/// Of an even part of the matches: enough for their spread.
 std::vector<double> residuals_of(std::span<const SurfaceMatch> matches) {
+  constexpr std::size_t enough = 8192;
+  const std::size_t step = matches.size() / enough + 1;
   std::vector<double> residuals;
-  residuals.reserve(matches.size());
-  for (const SurfaceMatch& match : matches) residuals.push_back(match.residual_m);
+  for (std::size_t i = 0; i < matches.size(); i += step) residuals.push_back(matches[i].residual_m);
   return residuals;
 }
 
@@ -55,8 +58,9 @@ Pose stepped_to_rest(const SurfaceMap& target, const SurfaceMap& source, Pose po
   constexpr int most_steps = 15;
   constexpr double lever_m = 5.0;
   constexpr double least_reach_m = 0.005;
+  constexpr double reach_falls = 0.3;
   double reach_m = first_reach_m;
-  for (int i = 0; i < most_steps; ++i, reach_m *= 0.5) {
+  for (int i = 0; i < most_steps; ++i, reach_m *= reach_falls) {
     const auto step = step_of(target, source, pose, held, axes, reach_m, progress);
     if (!step) break;
     pose = stepped(pose, *step);
@@ -65,8 +69,19 @@ Pose stepped_to_rest(const SurfaceMap& target, const SurfaceMap& source, Pose po
   return pose;
 }
 
-ObservabilityLimits limits_of(const RegistrationOptions& options) {
-  return {options.undetermined_sigma_m, options.pair_sigma_m};
+/// A pose, judged by the surfaces that meet there.
+struct Judged {
+  std::vector<SurfaceMatch> matches;
+  PairInformation known;
+};
+Judged judge(const PreparedScan& target, const PreparedScan& source, const Pose& pose, const Eigen::Matrix3d& axes,
+             const HeldDirections& held, const RegistrationOptions& options, Progress& progress) {
+  const SurfaceMap& surface = target.surface(piece_of(target, source));
+  Judged judged;
+  judged.matches = surface_matches(surface, source.surface(surface.cell_m()).pieces(), pose, progress);
+  judged.known = judge_observability(judged.matches, tukey_reach_m(judged.matches, surface.cell_m()), axes,
+                                     {options.undetermined_sigma_m, options.pair_sigma_m}, held);
+  return judged;
 }
 
 /// What is held stands at the guess.
@@ -121,12 +136,17 @@ double overlap_at(const PreparedScan& target, const PreparedScan& source, const 
 }
 
 Pose refined(const PreparedScan& target, const PreparedScan& source, Pose pose, const HeldDirections& held,
-             const Eigen::Matrix3d& axes, Progress& progress) {
+             const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress) {
   const double fine_m = piece_of(target, source);
+  if (options.refinement == Refinement::points) {
+    const IcpTarget points(icp_cloud(target.surface(fine_m)), options.icp);
+    const IcpResult found = icp_align(points, icp_cloud(source.surface(fine_m)), pose, options.icp, progress);
+    return held_at(pose, found.target_from_source, held, axes);
+  }
   const double coarse_m = 2.0 * fine_m;
   pose = stepped_to_rest(target.surface(coarse_m), source.surface(coarse_m), pose, held, axes, 0.5 * coarse_m, 2e-4,
                          progress);
-  return stepped_to_rest(target.surface(fine_m), source.surface(fine_m), pose, held, axes, 0.0, 2e-5, progress);
+  return stepped_to_rest(target.surface(fine_m), source.surface(fine_m), pose, held, axes, 0.0, 5e-5, progress);
 }
 
 std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
@@ -141,11 +161,7 @@ std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& sou
 PairInformation pair_information(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                                  const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options,
                                  Progress& progress) {
-  const SurfaceMap& surface = target.surface(piece_of(target, source));
-  const auto matches =
-      surface_matches(surface, source.surface(surface.cell_m()).pieces(), target_from_source, progress);
-  return judge_observability(matches, tukey_reach_m(matches, surface.cell_m()), tunnel_axes(axis_in_target),
-                             limits_of(options), {});
+  return judge(target, source, target_from_source, tunnel_axes(axis_in_target), {}, options, progress).known;
 }
 
 PairResult register_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
@@ -159,36 +175,34 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   NdtOptions ndt;
   ndt.coarsest_cell_m = options.cell_m;
   ndt.finest_cell_m = std::max(ndt.finest_cell_m, 8.0 * piece_of(target, source));
+  ndt.sources = options.ndt_sources;
   const double search_m = std::exchange(ndt.search_m, 0.0);
   Progress last = progress.part(0.5, "");
   Pose pose = guess;
   const auto align = [&] {
     const NdtAlignment alignment = ndt_align(target.pyramid, source.pyramid, guess, ndt, transform);
     pair.iterations += alignment.iterations;
-    return refined(target, source, alignment.target_from_source, {}, axes, last);
+    return refined(target, source, alignment.target_from_source, {}, axes, options, last);
   };
   if (start == Start::found) {
-    pose = refined(target, source, guess, {}, axes, last);
+    pose = refined(target, source, guess, {}, axes, options, last);
   } else {
     pose = align();
     ndt.search_m = search_m;
     if (!check_fit(target, source, pose).agrees()) pose = align();  // another round of blasting, perhaps
   }
-  PairInformation known = pair_information(target, source, pose, axis_in_target, options, last);
-  const SurfaceMap& surface = target.surface(piece_of(target, source));
-  const auto& pieces = source.surface(surface.cell_m()).pieces();
-  if (known.undetermined != HeldDirections{}) {
-    pose = refined(target, source, held_at(guess, pose, known.undetermined, axes), known.undetermined, axes, last);
-    const auto matches = surface_matches(surface, pieces, pose, last);
-    known = judge_observability(matches, tukey_reach_m(matches, surface.cell_m()), axes, limits_of(options),
-                                known.undetermined);
+  Judged judged = judge(target, source, pose, axes, {}, options, last);
+  const HeldDirections held = judged.known.undetermined;
+  if (held != HeldDirections{}) {
+    pose = refined(target, source, held_at(guess, pose, held, axes), held, axes, options, last);
+    judged = judge(target, source, pose, axes, held, options, last);
   }
   pair.target_from_source = pose;
-  pair.sigma = no_worse_than_guess(known.sigma, options);
-  pair.information = known.information;
-  for (std::size_t i = 0; i < known.undetermined.size(); ++i)
-    if (known.undetermined[i]) pair.undetermined.emplace_back(direction_names[i]);
-  measure(pair, surface_matches(surface, pieces, pose, last), axes);
+  pair.sigma = no_worse_than_guess(judged.known.sigma, options);
+  pair.information = judged.known.information;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (judged.known.undetermined[i]) pair.undetermined.emplace_back(direction_names[i]);
+  measure(pair, judged.matches, axes);
   pair.overlap = overlap_at(target, source, pose, 0.4);
   const FitCheck check = check_fit(target, source, pose);
   pair.agreeing = check.agreeing;

@@ -12,13 +12,14 @@ namespace adit {
 double overlap_at(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                   double distance_m);
 
-/// Gauss-Newton steps on the surfaces of both scans, first on pieces twice as large, until they are too small to
-/// matter; Tukey's weights of a reach that fits the noise found. Held directions (axes: tunnel_axes in the target's
-/// frame) are left alone.
+/// By surfaces: Gauss-Newton steps on those of both scans, first on pieces twice as large, until they are too small to
+/// matter; Tukey's weights of a reach that fits the noise found. By points: iterative closest point on the middles of
+/// the same pieces. Held directions (axes: tunnel_axes in the target's frame) are left alone.
 Pose refined(const PreparedScan& target, const PreparedScan& source, Pose target_from_source,
-             const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress);
+             const HeldDirections& held, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
+             Progress& progress);
 
-/// One such step on the smaller pieces; nothing where too few of them meet.
+/// One step by surfaces, on the smaller pieces; nothing where too few of them meet.
 std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                              const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress);
 

@@ -142,7 +142,9 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   const Adjustment adjustment = adjusted(graph, adjusting);
   report_contradictions(result, adjustment, graph, nodes);
   keep_used(result, nodes, adjustment, graph);
-  const JointRefinement joint = refine_jointly(graph, adjustment, nodes, result.pairs, context, adjusting);
+  const JointRefinement joint = options.refinement == Refinement::surfaces
+                                    ? refine_jointly(graph, adjustment, nodes, result.pairs, context, adjusting)
+                                    : JointRefinement{used_part(graph, adjustment), adjustment.solved};
   result.loops = loop_closures(used_part(graph, adjustment), joint.graph, nodes);
   place_nodes(result, nodes, candidates, graph, joint.solved, context, options);
   report_control(result, adjustment, joint.solved, graph, nodes, options);

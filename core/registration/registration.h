@@ -12,8 +12,16 @@
 #include "core/geometry/pose.h"
 #include "core/geometry/tile_source.h"
 #include "core/georeference/control.h"
+#include "core/registration/icp_options.h"
+#include "core/registration/ndt_options.h"
 
 namespace adit {
+
+/// What refines a pair after the normal distributions transform.
+enum class Refinement {
+  surfaces,  ///< both scans' surfaces by moving least squares (surface_match.h)
+  points     ///< iterative closest point by the stages of IcpOptions
+};
 
 struct RegistrationOptions {
   double spacing_m = 0.10;        ///< even subsample used for matching
@@ -25,6 +33,9 @@ struct RegistrationOptions {
   double control_sigma_m = 0.002;      ///< of a target against its control point, per axis
   double pair_sigma_m = 0.0002;        ///< least sigma of a pair: what a scanner bends and no overlap shows
   double undetermined_sigma_m = 0.02;  ///< a direction weaker than this is named and held at its prior
+  NdtSources ndt_sources = NdtSources::distributions;
+  Refinement refinement = Refinement::surfaces;
+  IcpOptions icp;  ///< where points refine; a group of options of its own
 };
 
 template <typename Visitor>
@@ -41,6 +52,10 @@ void describe(Visitor& v, RegistrationOptions& o) {
            "least sigma of a pair: what a scanner bends and no overlap shows");
   v.number("undetermined_sigma_m", o.undetermined_sigma_m, "m", 0.002, 1.0,
            "a direction weaker than this is named and held at its prior");
+  visit_choice(v, "ndt_sources", o.ndt_sources, {"distributions", "points"},
+               "what of one scan is laid on the distributions of the other by the normal distributions transform");
+  visit_choice(v, "refinement", o.refinement, {"surfaces", "points"},
+               "what refines a pair: the surfaces of both scans, or iterative closest point by the options of icp");
 }
 
 /// One scan to be placed. Frames: scan frame, and the local frame (site minus project origin).
@@ -75,6 +90,7 @@ struct PairResult {
   double agreeing = 0.0;  ///< share of either scan's points on the other's surface, where that shows one or saw through
   double seen_through = 0.0;  ///< share of them where the other scanner saw through
   int iterations = 0;         ///< of the normal distributions transform
+  double seconds = 0.0;       ///< it took to match, by the context's clock; 0 without, and when an earlier run did
   PoseSigma sigma;
   /// Of "along", "across", "up", "roll", "pitch", "yaw" those that the clouds do not tell; held at the guess.
   std::vector<std::string> undetermined;
@@ -123,6 +139,7 @@ struct RegistrationContext {
   std::vector<TargetObservation> targets;  ///< scan frames
   /// Unit direction of the tunnel axis in the local frame near a point; empty: taken from the clouds.
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> axis_direction;
+  std::function<double()> clock_s;  ///< for how long pairs take; empty: not measured
 };
 
 /// Places all scans. Longest gap between two checks for cancel: summing up a few tiles (about 0.1 s).

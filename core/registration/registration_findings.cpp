@@ -5,11 +5,23 @@
 #include <cstdio>
 
 #include "core/foundation/angle.h"
+#include "core/geometry/pose_step.h"
 #include "core/geometry/statistics.h"
 #include "core/registration/scan_pairs.h"
 
 namespace adit {
 namespace {
+
+constexpr double wrong_residual_sigmas = 4.0;  // one in 16,000 by chance
+
+/// What of a target's errors shows in its residual: I - J C J^T / sigma^2.
+Eigen::Vector3d redundancy_of(const Pose& local_from_scan, const Matrix6d& covariance, const Eigen::Vector3d& in_scan,
+                              double sigma_m) {
+  Eigen::Matrix<double, 3, 6> j;
+  j << -cross_matrix(local_from_scan.linear() * in_scan), Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d taken = (j * covariance * j.transpose()).diagonal() / (sigma_m * sigma_m);
+  return (Eigen::Vector3d::Ones() - taken).cwiseMax(0.0).cwiseMin(1.0);
+}
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -96,10 +108,19 @@ void report_control(RegistrationResult& result, const Adjustment& adjustment, co
     result.control.push_back({name, control.id, residual, adjustment.control_used[k]});
     if (!adjustment.control_used[k]) continue;
     for (const double component : residual) components.push_back(component);
-    if (residual.cwiseAbs().maxCoeff() <= wrong_control_sigmas * options.control_sigma_m) continue;
-    char words[160];
-    std::snprintf(words, sizeof words, "residual of %.1f mm at target %s; over five times its sigma",
-                  1000.0 * residual.norm(), control.id.c_str());
+    ControlResidual& reported = result.control.back();
+    const Eigen::Vector3d redundancy =
+        redundancy_of(solved.local_from_scan[control.node], solved.covariance[control.node], control.in_scan,
+                      options.control_sigma_m);
+    constexpr double least_redundancy = 0.01;  // of less, a residual is rounding
+    reported.redundancy = redundancy.mean();
+    reported.normalised =
+        (residual.array().abs() / (options.control_sigma_m * redundancy.array().max(least_redundancy).sqrt()))
+            .maxCoeff();
+    if (reported.normalised <= wrong_residual_sigmas) continue;
+    char words[200];
+    std::snprintf(words, sizeof words, "residual of %.1f mm at target %s: %.1f times what its sigma explains",
+                  1000.0 * residual.norm(), control.id.c_str(), reported.normalised);
     result.findings.push_back({Severity::decision, "scan " + name, words, "check this target and its control point"});
   }
   result.control_rms_m = components.empty() ? 0.0 : root_mean_square(components);

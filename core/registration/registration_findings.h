@@ -13,7 +13,8 @@ void report_disagreements(RegistrationResult& result, const RegistrationOptions&
 void report_contradictions(RegistrationResult& result, const Adjustment& adjustment, const PoseGraph& graph,
                            const std::vector<Node>& nodes);
 
-/// Residuals of control, those beyond five sigma as findings.
+/// Residuals of control with their redundancy; those that fail the blunder test (normalised residual over 4) as
+/// findings.
 void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved,
                     const PoseGraph& graph, const std::vector<Node>& nodes, const RegistrationOptions& options);
 

@@ -6,7 +6,6 @@
 
 #include "core/foundation/parallel.h"
 #include "core/registration/found_place.h"
-#include "core/registration/register_pair.h"
 
 namespace adit {
 namespace {
@@ -50,6 +49,15 @@ std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const Reg
   return pairs;
 }
 
+PairResult matched_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
+                        const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options, Progress& progress) {
+  PairResult pair = register_pair(target, source, guess, start, axis_in_target, options, progress);
+  if (start == Start::found || pair.agreeing >= least_agreeing) return pair;
+  const PairFound other = found_place(target, source, options, progress);
+  if (other.outcome != SearchOutcome::placed) return pair;
+  return register_pair(target, source, other.target_from_source, Start::found, axis_in_target, options, progress);
+}
+
 std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
                                        const RegistrationContext& context, const RegistrationOptions& options,
                                        Progress& progress) {
@@ -62,19 +70,14 @@ std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std
   parallel_for_each_index(
       candidates.size(),
       [&](std::size_t k) {
+        const double begun_s = context.clock_s ? context.clock_s() : 0.0;
         const Node& target = nodes[candidates[k].target];
         const Node& source = nodes[candidates[k].source];
         const Eigen::Vector3d axis = target.start.linear().transpose() * axis_at(context, target, target.start);
         const bool found = target.by == Node::By::search && source.by == Node::By::search;
-        results[k] = register_pair(*target.prepared, *source.prepared, target.start.inverse() * source.start,
-                                   found ? Start::found : Start::guess, axis, options, parts[k]);
-        // The guess was too far off for the transform: look for the place without it.
-        if (!found && results[k].agreeing < least_agreeing) {
-          const PairFound other = found_place(*target.prepared, *source.prepared, options, parts[k]);
-          if (other.outcome == SearchOutcome::placed)
-            results[k] = register_pair(*target.prepared, *source.prepared, other.target_from_source, Start::found, axis,
-                                       options, parts[k]);
-        }
+        results[k] = matched_pair(*target.prepared, *source.prepared, target.start.inverse() * source.start,
+                                  found ? Start::found : Start::guess, axis, options, parts[k]);
+        results[k].seconds = context.clock_s ? context.clock_s() - begun_s : 0.0;
         results[k].used = results[k].overlap >= options.least_overlap && results[k].agreeing >= least_agreeing;
       },
       1);

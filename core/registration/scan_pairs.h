@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/registration/nodes.h"
+#include "core/registration/register_pair.h"
 
 namespace adit {
 
@@ -19,6 +20,11 @@ std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const Reg
 /// Of what a pair shows in common, as much must lie on the same surfaces: less than any right place has, and as much as
 /// wrong ones in rock have.
 inline constexpr double least_agreeing = 0.45;
+
+/// register_pair, and when what the scans show does not agree near the guess, once more from where a search finds the
+/// place without it.
+PairResult matched_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
+                        const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options, Progress& progress);
 
 /// One result for each candidate. Not used are those that overlap too little, those that do not agree, and those with
 /// directions that they do not know between scans which other pairs tie together in every direction.

@@ -1,7 +1,6 @@
 #include "core/registration/surface_map.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/foundation/parallel.h"
 
@@ -10,7 +9,6 @@ namespace {
 
 /// Zero where there is no surface near.
 Eigen::Vector3d normal_at(const DistributionMap& planes, const Eigen::Vector3d& place) {
-  constexpr double smoothing = 0.6;
   const double reach2 = planes.cell_m() * planes.cell_m();
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   Eigen::Vector3d nearest = Eigen::Vector3d::Zero();
@@ -18,9 +16,7 @@ Eigen::Vector3d normal_at(const DistributionMap& planes, const Eigen::Vector3d& 
   planes.visit_near(place, [&](const NormalDistribution& plane) {
     const double squared = (plane.mean - place).squaredNorm();
     if (!plane.flat || squared >= reach2) return;
-    const double left = 1.0 - squared / reach2;
-    sum += left * left * std::exp(-0.5 * squared / (smoothing * smoothing * reach2)) * plane.normal *
-           plane.normal.transpose();
+    sum += near_weight(squared / reach2) * plane.normal * plane.normal.transpose();
     if (squared < least) nearest = plane.normal;
     least = std::min(least, squared);
   });

@@ -11,8 +11,15 @@
 
 namespace adit {
 
+/// How much a piece of surface counts at a distance: as a Gaussian of about 0.4 reaches would, but over at one reach
+/// without a step. share2: squared distance over squared reach, under 1.
+inline double near_weight(double share2) {
+  const double left = 1.0 - share2;
+  return left * left * left;
+}
+
 /// The mean of one cell's points with the normal of the surface around it (either way), from the planes of the larger
-/// cells around it with Gaussian weights of 0.6 cells.
+/// cells around it by near_weight.
 struct SurfacePiece {
   Eigen::Vector3f place = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();

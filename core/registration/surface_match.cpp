@@ -9,7 +9,6 @@ namespace adit {
 namespace {
 
 constexpr double least_facing = 0.7;  // cosine: two faces of one wall, or a corner, are not the same surface
-constexpr double smoothing = 0.6;     // sigma of the weights in cells
 
 /// Tukey's weight, and the derivative of weight times residual.
 struct Tukey {
@@ -32,10 +31,7 @@ Vector6d jacobian(const SurfaceMatch& match) {
 class Surface {
  public:
   Surface(const Eigen::Vector3d& place, const Eigen::Vector3d& source_normal, double cell_m)
-      : place_(place),
-        source_normal_(source_normal),
-        reach2_(cell_m * cell_m),
-        exponent_(-0.5 / (smoothing * smoothing * cell_m * cell_m)) {}
+      : place_(place), source_normal_(source_normal), reach2_(cell_m * cell_m) {}
 
   void add(const SurfacePiece& piece) {
     const Eigen::Vector3d away = place_ - piece.place.cast<double>();
@@ -45,9 +41,7 @@ class Surface {
     const double facing = source_normal_.dot(normal);
     if (std::abs(facing) < least_facing) return;
     if (facing < 0.0) normal = -normal;
-    // The factor ends the weights at one cell without a step.
-    const double left = 1.0 - squared / reach2_;
-    const double weight = left * left * std::exp(exponent_ * squared);
+    const double weight = near_weight(squared / reach2_);
     weight_ += weight;
     residual_ += 0.5 * weight * (source_normal_ + normal).dot(away);
     normal_ += weight * normal;
@@ -69,35 +63,27 @@ class Surface {
 
  private:
   Eigen::Vector3d place_, source_normal_;
-  double reach2_, exponent_;
+  double reach2_;
   double weight_ = 0.0, residual_ = 0.0, nearest2_ = 1e300;
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
-};
-
-struct Matches {
-  std::vector<SurfaceMatch> list;
-  Matches& operator+=(const Matches& more) {
-    list.insert(list.end(), more.list.begin(), more.list.end());
-    return *this;
-  }
 };
 
 }  // namespace
 
 std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, std::span<const SurfacePiece> source,
                                           const Pose& target_from_source, Progress& progress) {
-  const auto matched = [&](std::size_t begin, std::size_t end) {
+  return parallel_ordered_list(source.size(), 1024, [&](std::size_t begin, std::size_t end) {
     progress.check();
-    Matches matches;
+    std::vector<SurfaceMatch> matches;
+    matches.reserve(end - begin);
     for (const SurfacePiece& piece : source.subspan(begin, end - begin)) {
       const Eigen::Vector3d place = target_from_source * piece.place.cast<double>();
       Surface surface(place, target_from_source.linear() * piece.normal.cast<double>(), target.cell_m());
       target.visit_near(place, [&](const SurfacePiece& near) { surface.add(near); });
-      if (surface.is_near()) matches.list.push_back(surface.match(target_from_source.translation()));
+      if (surface.is_near()) matches.push_back(surface.match(target_from_source.translation()));
     }
     return matches;
-  };
-  return parallel_ordered_sum(source.size(), 1024, Matches{}, matched).list;
+  });
 }
 
 NormalEquations& NormalEquations::operator+=(const NormalEquations& other) {
@@ -116,13 +102,15 @@ NormalEquations normal_equations(std::span<const SurfaceMatch> matches, double t
       const Tukey pull = tukey(match.residual_m, tukey_m);
       if (!(pull.weight > 0.0)) continue;
       const Vector6d j = jacobian(match);
-      sums.hessian.noalias() += pull.weight * j * j.transpose();
-      sums.gradient += pull.weight * match.residual_m * j;
+      const Vector6d weighted = pull.weight * j;
+      sums.hessian.noalias() += weighted * j.transpose();
+      sums.gradient += match.residual_m * weighted;
       sums.weight += pull.weight;
       sums.curvature += pull.curvature;
       Vector6d error;
       error << match.arm.cross(match.normal_error), match.normal_error;
-      sums.noise.noalias() += pull.weight * error * error.transpose();
+      const Vector6d weighted_error = pull.weight * error;
+      sums.noise.noalias() += weighted_error * error.transpose();
     }
     return sums;
   });
@@ -130,8 +118,7 @@ NormalEquations normal_equations(std::span<const SurfaceMatch> matches, double t
 
 Matrix6d gradient_covariance(std::span<const SurfaceMatch> matches, double tukey_m, double cube_m) {
   std::vector<std::pair<std::uint64_t, std::size_t>> by_cube;
-  for (std::size_t i = 0; i < matches.size(); ++i)
-    by_cube.emplace_back(cell_key((matches[i].arm / cube_m).array().floor() + half_cells), i);
+  for (std::size_t i = 0; i < matches.size(); ++i) by_cube.emplace_back(cell_key(in_cells(matches[i].arm, cube_m)), i);
   std::sort(by_cube.begin(), by_cube.end());
   Matrix6d covariance = Matrix6d::Zero();
   Vector6d sum = Vector6d::Zero();

@@ -20,7 +20,7 @@ struct SurfaceMatch {
 };
 
 /// For every source piece with target pieces within one cell that face the same way (45 degrees): the distance to the
-/// surface that these make together, with Gaussian weights w of 0.6 cells (implicit moving least squares, Kolluri
+/// surface that these make together, with the weights w of near_weight (implicit moving least squares, Kolluri
 /// 2008),
 ///   residual = sum w n . (q - t) / sum w,   n = (n_t + R n_s) / 2,
 /// the normals of both sides halved (the symmetric metric of Rusinkiewicz 2019: exact on surfaces that curve).

@@ -88,30 +88,99 @@ void add_pairs(PageFlow& flow, const Results& results) {
     return;
   }
   flow.subheading("How the pairs fit");
-  Table table{{{"scan", 22, false},
-               {"on", 22, false},
-               {"overlap", 16, true},
-               {"median mm", 16, true},
-               {"rms mm", 14, true},
-               {"within 6 mm", 18, true},
-               {"along mm", 15, true},
-               {"across mm", 15, true},
-               {"up mm", 13, true},
-               {"used", 13, false},
-               {"not determined", 25, false}},
+  Table table{{{"scan", 23, false},
+               {"on", 23, false},
+               {"overlap", 14, true},
+               {"median mm", 15, true},
+               {"rms mm", 13, true},
+               {"within 6 mm", 17, true},
+               {"faces along, across, up", 31, true},
+               {"agreeing", 14, true},
+               {"seen through", 18, true},
+               {"iterations", 14, true},
+               {"used", 7, false}},
               {},
               2.2};
   for (const PairResult& p : pairs)
-    table.rows.push_back(
-        {p.source, p.target, percent(p.overlap), fixed(1000.0 * p.median_m, 1), fixed(1000.0 * p.rms_m, 1),
-         percent(p.within_6mm), sigma_mm(p.sigma.along_m, has(p.undetermined, "along")),
-         sigma_mm(p.sigma.across_m, has(p.undetermined, "across")), sigma_mm(p.sigma.up_m, has(p.undetermined, "up")),
-         p.used ? TableCell("yes") : TableCell("no", colours::red, true),
-         TableCell(joined(p.undetermined), colours::red, true)});
+    table.rows.push_back({p.source, p.target, percent(p.overlap), fixed(1000.0 * p.median_m, 1),
+                          fixed(1000.0 * p.rms_m, 1), percent(p.within_6mm),
+                          percent(p.balance.x()) + "  " + percent(p.balance.y()) + "  " + percent(p.balance.z()),
+                          percent(p.agreeing), percent(p.seen_through, 1), std::to_string(p.iterations),
+                          p.used ? TableCell("yes") : TableCell("no", colours::red, true)});
   flow.table(table);
+  flow.paragraph(
+      "Residuals are distances to the surface that both scans make. Agreeing: points that lie on the other scan's "
+      "surface, of those where it shows one or its scanner saw through. Seen through: points where the other scanner "
+      "measured something behind; what stands there moved, or the pair is wrong. Times: pair_timing_s in results.json.",
+      colours::grey, 2.3);
   const double height = pair_bars_height(std::min<std::size_t>(pairs.size(), 16));
   draw_pair_bars(flow.canvas(), flow.take(height), std::move(pairs));
   flow.skip(2.0);
+}
+
+void add_what_pairs_know(PageFlow& flow, const Results& results) {
+  const std::vector<PairResult>& pairs = results.registration.pairs;
+  if (pairs.empty()) return;
+  flow.subheading("What the pairs know, each alone (one standard deviation)");
+  Table table{{{"scan", 26, false},
+               {"on", 26, false},
+               {"along mm", 15, true},
+               {"across mm", 15, true},
+               {"up mm", 14, true},
+               {"roll mdeg", 15, true},
+               {"pitch mdeg", 15, true},
+               {"yaw mdeg", 15, true},
+               {"not determined", 48, false}},
+              {},
+              2.2};
+  for (const PairResult& p : pairs)
+    table.rows.push_back({p.source, p.target, sigma_mm(p.sigma.along_m, has(p.undetermined, "along")),
+                          sigma_mm(p.sigma.across_m, has(p.undetermined, "across")),
+                          sigma_mm(p.sigma.up_m, has(p.undetermined, "up")), mdeg(p.sigma.roll_rad),
+                          mdeg(p.sigma.pitch_rad), mdeg(p.sigma.yaw_rad),
+                          TableCell(joined(p.undetermined), colours::red, true)});
+  flow.table(table);
+}
+
+void add_loops(PageFlow& flow, const Results& results) {
+  if (results.registration.loops.empty()) return;
+  flow.subheading("How loops of pairs close");
+  Table table{{{"scans", 109, false},
+               {"open before mm", 20, true},
+               {"mdeg", 18, true},
+               {"open after mm", 20, true},
+               {"mdeg", 18, true}},
+              {},
+              2.2};
+  for (const LoopClosure& loop : results.registration.loops)
+    table.rows.push_back({joined(loop.scans), fixed(1000.0 * loop.before_m, 1), mdeg(loop.before_rad),
+                          fixed(1000.0 * loop.after_m, 1), mdeg(loop.after_rad)});
+  flow.table(table);
+  flow.paragraph(
+      "What the transforms of the pairs leave open once around: each pair alone, and after all were refined together.",
+      colours::grey, 2.3);
+}
+
+void add_pair_sections(PageFlow& flow, const ReportContent& content) {
+  if (content.pair_sections.empty()) return;
+  constexpr double height_mm = 58.0, gap_mm = 3.0;
+  flow.subheading("Sections through the overlap, half-way between two stations", height_mm);
+  const double width_mm = 0.5 * (flow.width_mm() - gap_mm);
+  for (std::size_t i = 0; i < content.pair_sections.size(); i += 2) {
+    const Rect row = flow.take(height_mm + gap_mm);
+    for (std::size_t k = i; k < std::min(i + 2, content.pair_sections.size()); ++k) {
+      const double left = row.left + static_cast<double>(k - i) * (width_mm + gap_mm);
+      flow.canvas().picture(overlap_picture(content.pair_sections[k], width_mm, height_mm),
+                            {left, row.top, width_mm, height_mm});
+    }
+  }
+  const auto used = static_cast<std::size_t>(std::count_if(content.results->registration.pairs.begin(),
+                                                           content.results->registration.pairs.end(),
+                                                           [](const PairResult& pair) { return pair.used; }));
+  if (used > content.pair_sections.size())
+    flow.paragraph("The " + std::to_string(content.pair_sections.size()) + " pairs with the greatest rms of " +
+                       std::to_string(used) + ".",
+                   colours::grey, 2.3);
 }
 
 void add_control(PageFlow& flow, const Results& results) {
@@ -121,19 +190,22 @@ void add_control(PageFlow& flow, const Results& results) {
     return;
   }
   flow.subheading("Targets against control, observed minus control");
-  Table table{{{"scan", 30, false},
-               {"target", 30, false},
-               {"east mm", 22, true},
-               {"north mm", 22, true},
-               {"up mm", 22, true},
-               {"distance mm", 24, true},
-               {"used", 14, false}},
+  Table table{{{"scan", 27, false},
+               {"target", 27, false},
+               {"east mm", 20, true},
+               {"north mm", 20, true},
+               {"up mm", 20, true},
+               {"distance mm", 20, true},
+               {"redundancy", 18, true},
+               {"normalised", 18, true},
+               {"used", 10, false}},
               {},
               2.3};
   for (const ControlResidual& r : results.registration.control)
     table.rows.push_back({r.scan, r.id, with_sign(1000.0 * r.residual_m.x(), 1),
                           with_sign(1000.0 * r.residual_m.y(), 1), with_sign(1000.0 * r.residual_m.z(), 1),
-                          fixed(1000.0 * r.residual_m.norm(), 1),
+                          fixed(1000.0 * r.residual_m.norm(), 1), r.used ? fixed(r.redundancy, 2) : "",
+                          r.used ? fixed(r.normalised, 1) : "",
                           TableCell(r.used ? "yes" : "no", r.used ? colours::black : colours::red, !r.used)});
   flow.table(table);
   flow.paragraph("Root mean square of the targets used, per axis: " +
@@ -167,7 +239,10 @@ void add_registration_pages(PageFlow& flow, const ReportContent& content) {
   }
   add_scans(flow, results);
   add_pairs(flow, results);
+  add_what_pairs_know(flow, results);
+  add_loops(flow, results);
   add_control(flow, results);
+  add_pair_sections(flow, content);
 }
 
 }  // namespace adit::render

@@ -21,6 +21,8 @@ inline double seconds_of(int runs, const std::function<void()>& work) {
 }
 
 void bench_registration();
+void bench_paper();
+void bench_stages();
 void bench_placement();
 void bench_tunnels();
 void bench_io();

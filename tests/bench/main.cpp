@@ -1,5 +1,5 @@
-// ./dev bench [registration] [placement] [tunnels] [io] [profiling]; import.py asks for single rows: sections JOB,
-// slice JOB, decoding FILE
+// ./dev bench [registration] [paper] [stages] [placement] [tunnels] [io] [profiling]; import.py asks for single rows:
+// sections JOB, slice JOB, decoding FILE
 #include <pcl/console/print.h>
 
 #include <algorithm>
@@ -22,13 +22,16 @@ int main(int argc, char** argv) {
     return 0;
   }
   const std::vector<std::pair<std::string, void (*)()>> tables{{"registration", adit::bench::bench_registration},
+                                                               {"paper", adit::bench::bench_paper},
+                                                               {"stages", adit::bench::bench_stages},
                                                                {"placement", adit::bench::bench_placement},
                                                                {"tunnels", adit::bench::bench_tunnels},
                                                                {"io", adit::bench::bench_io},
                                                                {"profiling", adit::bench::bench_profiling}};
   for (const std::string& word : wanted)
     if (std::none_of(tables.begin(), tables.end(), [&](const auto& table) { return table.first == word; })) {
-      std::fprintf(stderr, "bench: there is no table \"%s\"; registration, placement, tunnels, io, profiling\n",
+      std::fprintf(stderr,
+                   "bench: there is no table \"%s\"; registration, paper, stages, placement, tunnels, io, profiling\n",
                    word.c_str());
       return 2;
     }

@@ -69,8 +69,44 @@ TEST(CellSums, DoubleCellsAreTheSumsOfTheirParts) {
     EXPECT_EQ(doubled[i].key, direct[i].key);
     EXPECT_EQ(doubled[i].points, direct[i].points);
     EXPECT_LT((doubled[i].first - direct[i].first).norm(), 1e-8);
-    EXPECT_LT((doubled[i].second - direct[i].second).norm(), 1e-7);
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(doubled[i].second[k], direct[i].second[k], 1e-7);
   }
+}
+
+TEST(CellIndex, FindsTheCellsAroundAPlaceAndNoOthers) {
+  const Random random(9, 1);
+  std::vector<std::array<int, 3>> cells;
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const auto place = [&](std::uint64_t axis) { return static_cast<int>(random.uniform(3 * i + axis, -9.0, 9.0)); };
+    cells.push_back({place(0), place(1), place(2)});
+  }
+  const double cell_m = 0.3;
+  const auto key_of = [&](const std::array<int, 3>& c) {
+    return cell_key(in_cells(cell_m * Eigen::Vector3d(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5), cell_m));
+  };
+  std::sort(cells.begin(), cells.end(), [&](const auto& a, const auto& b) { return key_of(a) < key_of(b); });
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  std::vector<std::uint64_t> keys;
+  for (const auto& cell : cells) keys.push_back(key_of(cell));
+  const CellIndex index(keys, cell_m);
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    const Eigen::Vector3d at(random.uniform(20000 + 3 * i, -10.0, 10.0), random.uniform(20001 + 3 * i, -10.0, 10.0),
+                             random.uniform(20002 + 3 * i, -10.0, 10.0));
+    std::vector<std::size_t> found, expected;
+    index.visit_near(cell_m * at, [&](std::size_t slot) { found.push_back(slot); });
+    for (std::size_t slot = 0; slot < cells.size(); ++slot) {
+      const auto& c = cells[slot];
+      if ((Eigen::Vector3d(c[0], c[1], c[2]) - Eigen::Vector3d(at.array().floor())).cwiseAbs().maxCoeff() < 1.5)
+        expected.push_back(slot);
+    }
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+  std::size_t beyond = 0;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double x : {-1e9, 1e9, 1e300, nan}) index.visit_near({x, 0.0, 0.0}, [&](std::size_t) { ++beyond; });
+  CellIndex().visit_near({0.0, 0.0, 0.0}, [&](std::size_t) { ++beyond; });
+  EXPECT_EQ(beyond, 0U);
 }
 
 TEST(CellSums, TilesGiveWhatTheirPointsGive) {
@@ -207,9 +243,9 @@ struct SimulatedPair {
     Progress progress;
     return distribution_pyramid(cell_sums(CloudTiles(cloud), 0.125, 0.6, 45.0, progress), 0.125, 10.0, {});
   }
-  Pose found(const Pose& guess) const {
+  Pose found(const Pose& guess, const NdtOptions& options = {}) const {
     Progress progress;
-    return ndt_align(target, source, guess, {}, progress).target_from_source;
+    return ndt_align(target, source, guess, options, progress).target_from_source;
   }
 };
 
@@ -223,6 +259,17 @@ TEST(NdtSlow, FindsAPairFromThreeMetresAndTenDegrees) {
     EXPECT_LT(distance_between_m(found, pair.truth), 0.001) << i;
     EXPECT_LT(rotation_between_rad(found, pair.truth), rad_from_deg(0.005)) << i;
   }
+}
+
+TEST(NdtSlow, PointsOnDistributionsFindTheSamePlace) {
+  const SimulatedPair pair;
+  NdtOptions options;
+  options.sources = NdtSources::points;
+  const Pose guess = tests::off(pair.truth, {0.7, 0.3, 0.1}, 2.0);
+  const Pose found = pair.found(guess, options);
+  EXPECT_LT(distance_between_m(found, pair.truth), 0.005);
+  EXPECT_LT(rotation_between_rad(found, pair.truth), rad_from_deg(0.02));
+  EXPECT_NE(found.matrix(), pair.found(guess).matrix());
 }
 
 TEST(NdtSlow, SameBytesOnAnyNumberOfThreads) {

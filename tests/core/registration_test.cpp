@@ -131,6 +131,47 @@ TEST(Registration, AScanOfAnotherTunnelIsSaidNotGuessed) {
   EXPECT_FALSE(result.accepted);
 }
 
+/// One scan with so many targets, the first off its control point.
+RegistrationResult with_targets(int targets, const Eigen::Vector3d& first_off_m) {
+  const RockTunnel rock = sample_rock();
+  const Pose truth = station(rock.design(), 36.0, 10.0);
+  RegistrationContext context = context_along(rock.design().alignment());
+  for (int k = 0; k < targets; ++k) {
+    const Eigen::Vector3d place =
+        rock.design().alignment().to_site({30.0 + 3.0 * k, k % 2 == 0 ? -3.9 : 3.9, 1.0 + 0.5 * (k % 3)});
+    context.control.push_back({"T" + std::to_string(k), place});
+    const Eigen::Vector3d seen = place + (k == 0 ? first_off_m : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+    context.targets.push_back({"A", "T" + std::to_string(k), truth.inverse() * seen});
+  }
+  Progress progress;
+  return register_scans({scan_to_place("A", scan_at(rock, truth, 1, 20000), truth)}, context, {}, progress);
+}
+
+TEST(Registration, RedundanciesAreObservationsLessUnknowns) {
+  for (const int targets : {3, 5}) {
+    double sum = 0.0;
+    for (const ControlResidual& residual : with_targets(targets, Eigen::Vector3d::Zero()).control) {
+      EXPECT_GE(residual.redundancy, 0.0);
+      EXPECT_LE(residual.redundancy, 1.0);
+      sum += 3.0 * residual.redundancy;
+    }
+    EXPECT_NEAR(sum, 3.0 * targets - 6.0, 0.01);
+  }
+}
+
+TEST(Registration, ATargetThatFailsTheBlunderTestIsSaid) {
+  const auto decisions = [](const RegistrationResult& result) {
+    return std::count_if(result.findings.begin(), result.findings.end(), [](const Finding& f) {
+      return f.severity == Severity::decision && f.words.find("target T0") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(decisions(with_targets(6, {0.0, 0.0, 0.003})), 0);
+  const RegistrationResult wrong = with_targets(6, {0.0, 0.0, 0.0095});  // under five sigma: nothing contradicts
+  EXPECT_EQ(decisions(wrong), 1);
+  EXPECT_FALSE(wrong.accepted);
+  EXPECT_GT(wrong.control.front().normalised, 4.0);
+}
+
 TEST(Registration, ATargetWithoutControlPointIsRefused) {
   RegistrationContext context;
   context.targets.push_back({"A", "T9", {1, 2, 3}});

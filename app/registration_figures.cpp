@@ -1,0 +1,65 @@
+#include "app/registration_figures.h"
+
+#include <cctype>
+#include <cstdio>
+
+#include "app/pair_sections.h"
+#include "io/atomic_file.h"
+#include "render/probability_drawing.h"
+
+namespace adit::app {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double cell_m = 1.0;  // as in the paper's figure
+constexpr double pixel_m = 0.05;
+constexpr double all_ranges_m = 1e9;
+constexpr std::size_t all_pairs = 1000;
+
+std::string in_file_name(const std::string& name) {
+  std::string word = name.substr(0, 40);
+  for (char& c : word)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
+  return word;
+}
+
+render::Picture distributions_picture(const JobState& state, std::size_t scan, Progress& progress) {
+  const auto& options = state.job.options.profiling;
+  const io::PointStore& store = *state.stores[scan];
+  const bool limited = store.offset().isZero();
+  const DistributionMap cells(cell_sums(store, cell_m, limited ? options.least_range_m : 0.0,
+                                        limited ? options.most_range_m : all_ranges_m, progress),
+                              cell_m, {});
+  return render::probability_picture(
+      probability_from_above(cells, state.results.registration.scans[scan].local_from_scan, pixel_m),
+      state.job.scans[scan].name + ": normal distributions in cells of 1 m, seen from above, north up");
+}
+
+}  // namespace
+
+std::vector<fs::path> write_registration_figures(const JobState& state, Progress& progress) {
+  const fs::path folder = state.out / "figures";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  std::vector<fs::path> files;
+  const auto write = [&](const std::string& name, const render::Picture& picture) {
+    files.push_back(folder / (name + ".png"));
+    io::write_file_atomically(files.back(), render::png_bytes(picture));
+  };
+  const std::size_t scans = state.stores.size();
+  for (std::size_t i = 0; i < scans; ++i) {
+    if (!state.results.registration.scans[i].placed) continue;
+    Progress drawing = progress.part(0.5 / static_cast<double>(scans), "drawing distributions");
+    write("ndt-" + std::to_string(i + 1) + "-" + in_file_name(state.job.scans[i].name),
+          distributions_picture(state, i, drawing));
+  }
+  Progress cutting = progress.part(0.5, "drawing overlaps");
+  std::size_t number = 0;
+  for (const render::PairSection& section : pair_sections(state, all_pairs, cutting))
+    write("overlap-" + std::to_string(++number) + "-" + in_file_name(section.pair.source) + "-" +
+              in_file_name(section.pair.target),
+          render::overlap_picture(section, 130.0, 90.0));
+  return files;
+}
+
+}  // namespace adit::app

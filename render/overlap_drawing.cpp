@@ -1,0 +1,121 @@
+#include "render/overlap_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/colour_map.h"
+#include "render/number_text.h"
+
+namespace adit::render {
+namespace {
+
+constexpr Colour target_colour{0.10, 0.30, 0.65};
+constexpr Colour source_colour{0.90, 0.45, 0.05};
+constexpr double words_mm = 8.0;
+constexpr double detail_m = 0.25;
+
+/// A window of the section on the paper.
+struct Window {
+  Rect rect;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();  ///< right and up [m]
+  double mm_per_m = 1.0;
+
+  PaperPoint paper(const Eigen::Vector2f& p) const {
+    const Eigen::Vector2d off = mm_per_m * (p.cast<double>() - middle);
+    return rect.centre() + PaperPoint(off.x(), -off.y());
+  }
+};
+
+Eigen::AlignedBox2d box_of(const OverlapSection& section) {
+  Eigen::AlignedBox2d box;
+  for (const auto* points : {&section.target, &section.source})
+    for (const auto& p : *points) box.extend(p.cast<double>());
+  return box;
+}
+
+void draw_points(Canvas& canvas, const Window& window, const OverlapSection& section, double radius_mm) {
+  canvas.save();
+  canvas.clip(window.rect);
+  const auto draw = [&](const std::vector<Eigen::Vector2f>& points, const Colour& colour) {
+    for (const auto& p : points) {
+      const PaperPoint at = window.paper(p);
+      if (at.x() > window.rect.left && at.x() < window.rect.right() && at.y() > window.rect.top &&
+          at.y() < window.rect.bottom())
+        canvas.disc(at, radius_mm, colour);
+    }
+  };
+  draw(section.target, target_colour);
+  draw(section.source, source_colour);
+  canvas.restore();
+  canvas.frame(window.rect, {colours::light_grey, 0.2, {}});
+}
+
+/// The place nearest to a direction from the centre that both scans have: the middle of a detail. The target's points
+/// are asked for one of the source's within a hand's breadth.
+Eigen::Vector2d meeting_place(const OverlapSection& section, const Eigen::Vector2d& direction) {
+  constexpr std::size_t looked_at = 400;
+  constexpr float near_m = 0.1F;
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  double most = -std::numeric_limits<double>::max();
+  const std::size_t step = section.target.size() / looked_at + 1;
+  for (std::size_t i = 0; i < section.target.size(); i += step) {
+    const Eigen::Vector2f& p = section.target[i];
+    const double towards = direction.dot(p.cast<double>()) - std::abs(direction.x() * p.y() - direction.y() * p.x());
+    if (towards <= most) continue;
+    const bool met = std::any_of(section.source.begin(), section.source.end(),
+                                 [&](const Eigen::Vector2f& q) { return (p - q).norm() < near_m; });
+    if (!met) continue;
+    most = towards;
+    best = p.cast<double>();
+  }
+  return best;
+}
+
+}  // namespace
+
+void draw_overlap(Canvas& canvas, const Rect& rect, const PairSection& shown) {
+  const OverlapSection& section = shown.section;
+  const double height = rect.height - words_mm;
+  const double side = 0.5 * (height - 1.0);
+  const Rect whole{rect.left, rect.top, rect.width - side - 1.5, height};
+  const Eigen::AlignedBox2d box = box_of(section);
+  if (section.target.empty() || section.source.empty()) {
+    canvas.frame(whole, {colours::light_grey, 0.2, {}});
+    canvas.text(whole.centre(), "no points of both here",
+                {.size_mm = 2.4, .colour = colours::grey, .across = Across::centre});
+  } else {
+    const Eigen::Vector2d size = box.sizes().cwiseMax(0.5);
+    const double scale = 0.95 * std::min(whole.width / size.x(), whole.height / size.y());
+    draw_points(canvas, {whole, box.center(), scale}, section, 0.12);
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector2d place =
+          meeting_place(section, i == 0 ? Eigen::Vector2d::UnitY() : Eigen::Vector2d::UnitX());
+      const Rect detail{whole.right() + 1.5, rect.top + i * (side + 1.0), side, side};
+      draw_points(canvas, {detail, place, side / detail_m}, section, 0.25);
+      canvas.text({detail.left + 0.6, detail.top + 0.4}, i == 0 ? "above" : "right",
+                  {.size_mm = 1.9, .colour = colours::grey});
+    }
+  }
+  const PairResult& pair = shown.pair;
+  const TextStyle small{.size_mm = 2.1, .shorten_mm = rect.width};
+  canvas.disc({rect.left + 0.8, rect.bottom() - words_mm + 2.2}, 0.6, source_colour);
+  canvas.text({rect.left + 2.0, rect.bottom() - words_mm + 1.0}, pair.source,
+              {.size_mm = 2.1, .shorten_mm = 0.5 * rect.width - 3.0});
+  canvas.disc({rect.left + 0.5 * rect.width + 0.8, rect.bottom() - words_mm + 2.2}, 0.6, target_colour);
+  canvas.text({rect.left + 0.5 * rect.width + 2.0, rect.bottom() - words_mm + 1.0}, pair.target,
+              {.size_mm = 2.1, .shorten_mm = 0.5 * rect.width - 3.0});
+  canvas.text({rect.left, rect.bottom() - words_mm + 4.2},
+              "median " + fixed(1000.0 * pair.median_m, 1) + " mm; squares at right: " + fixed(1000.0 * detail_m, 0) +
+                  " mm wide",
+              small);
+}
+
+Picture overlap_picture(const PairSection& shown, double width_mm, double height_mm) {
+  constexpr double dots_per_inch = 250.0;
+  Canvas canvas = Canvas::raster(width_mm, height_mm, dots_per_inch);
+  draw_overlap(canvas, Rect{0.0, 0.0, width_mm, height_mm}.inset(1.0), shown);
+  return canvas.finish_picture();
+}
+
+}  // namespace adit::render
