@@ -13,7 +13,7 @@ namespace {
 constexpr Colour target_colour{0.10, 0.30, 0.65};
 constexpr Colour source_colour{0.90, 0.45, 0.05};
 constexpr double words_mm = 8.0;
-constexpr double detail_m = 0.25;
+constexpr double detail_m = 0.4;
 
 /// A window of the section on the paper.
 struct Window {
@@ -37,16 +37,16 @@ Eigen::AlignedBox2d box_of(const OverlapSection& section) {
 void draw_points(Canvas& canvas, const Window& window, const OverlapSection& section, double radius_mm) {
   canvas.save();
   canvas.clip(window.rect);
-  const auto draw = [&](const std::vector<Eigen::Vector2f>& points, const Colour& colour) {
+  const auto draw = [&](const std::vector<Eigen::Vector2f>& points, double radius, const Colour& colour) {
     for (const auto& p : points) {
       const PaperPoint at = window.paper(p);
       if (at.x() > window.rect.left && at.x() < window.rect.right() && at.y() > window.rect.top &&
           at.y() < window.rect.bottom())
-        canvas.disc(at, radius_mm, colour);
+        canvas.disc(at, radius, colour);
     }
   };
-  draw(section.target, target_colour);
-  draw(section.source, source_colour);
+  draw(section.target, 1.7 * radius_mm, target_colour);  // seen around the other's
+  draw(section.source, radius_mm, source_colour);
   canvas.restore();
   canvas.frame(window.rect, {colours::light_grey, 0.2, {}});
 }
@@ -106,7 +106,8 @@ void draw_overlap(Canvas& canvas, const Rect& rect, const PairSection& shown) {
   canvas.text({rect.left + 0.5 * rect.width + 2.0, rect.bottom() - words_mm + 1.0}, pair.target,
               {.size_mm = 2.1, .shorten_mm = 0.5 * rect.width - 3.0});
   canvas.text({rect.left, rect.bottom() - words_mm + 4.2},
-              "median " + fixed(1000.0 * pair.median_m, 1) + " mm; squares at right: " + fixed(1000.0 * detail_m, 0) +
+              "median " + fixed(1000.0 * pair.median_m, 1) + " mm; section " +
+                  fixed(2000.0 * section.half_thickness_m, 0) + " mm thick; squares " + fixed(1000.0 * detail_m, 0) +
                   " mm wide",
               small);
 }

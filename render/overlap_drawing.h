@@ -15,7 +15,7 @@ struct PairSection {
   OverlapSection section;
 };
 
-/// The whole section, and beside it two places of a quarter of a metre, above and to the right, where millimetres show.
+/// The whole section, and beside it two places 0.4 m wide, above and to the right, where millimetres show.
 /// Blue: the scan that was laid on; orange: the one laid. Names and figures beneath.
 void draw_overlap(Canvas& canvas, const Rect& rect, const PairSection& shown);
 

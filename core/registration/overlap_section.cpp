@@ -1,14 +1,18 @@
 #include "core/registration/overlap_section.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace adit {
 namespace {
 
-constexpr double half_thickness_m = 0.02;
 constexpr double radius_m = 20.0;
+constexpr double least_half_thickness_m = 0.02;
+constexpr double most_half_thickness_m = 0.16;
+constexpr std::size_t enough_points = 600;  // of each scan
 
-bool touches(const BoundingBox& box, const Eigen::Vector3d& centre, const Eigen::Vector3d& normal) {
+bool touches(const BoundingBox& box, const Eigen::Vector3d& centre, const Eigen::Vector3d& normal,
+             double half_thickness_m) {
   const double reach = 0.5 * box.sizes().dot(normal.cwiseAbs()) + half_thickness_m;
   return std::abs(normal.dot(box.center() - centre)) <= reach && box.exteriorDistance(centre) <= radius_m;
 }
@@ -22,6 +26,7 @@ std::vector<Eigen::Vector2f> even_part(const std::vector<Eigen::Vector2f>& point
 
 std::vector<Eigen::Vector2f> points_of(const TileSource& scan, const Pose& local_from_scan,
                                        const OverlapSection& section, const Progress& progress) {
+  const double half_thickness_m = section.half_thickness_m;
   const Pose scan_from_local = local_from_scan.inverse();
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d normal = section.right.cross(up);
@@ -30,7 +35,7 @@ std::vector<Eigen::Vector2f> points_of(const TileSource& scan, const Pose& local
   std::vector<Eigen::Vector2f> points;
   for (std::size_t tile = 0; tile < scan.tile_count(); ++tile) {
     progress.check();
-    if (!touches(scan.box(tile), centre, normal_in_scan)) continue;
+    if (!touches(scan.box(tile), centre, normal_in_scan, half_thickness_m)) continue;
     for (const auto& p : scan.positions(tile)) {
       const Eigen::Vector3d arm = p.cast<double>() - centre;
       if (std::abs(normal_in_scan.dot(arm)) > half_thickness_m || arm.norm() > radius_m) continue;
@@ -51,8 +56,14 @@ OverlapSection overlap_section(const TileSource& target, const Pose& local_from_
   ahead.z() = 0.0;
   if (ahead.norm() < 0.3) ahead = Eigen::Vector3d::UnitY();  // both scans from one place: any section will do
   section.right = ahead.cross(Eigen::Vector3d::UnitZ()).normalized();
-  section.target = even_part(points_of(target, local_from_target, section, progress), most_points);
-  section.source = even_part(points_of(source, local_from_source, section, progress), most_points);
+  for (section.half_thickness_m = least_half_thickness_m;; section.half_thickness_m *= 2.0) {
+    section.target = points_of(target, local_from_target, section, progress);
+    section.source = points_of(source, local_from_source, section, progress);
+    if (std::min(section.target.size(), section.source.size()) >= std::min(enough_points, most_points)) break;
+    if (section.half_thickness_m >= most_half_thickness_m) break;
+  }
+  section.target = even_part(section.target, most_points);
+  section.source = even_part(section.source, most_points);
   return section;
 }
 

@@ -13,11 +13,13 @@ namespace adit {
 struct OverlapSection {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< local frame
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();  ///< as seen from the target
-  std::vector<Eigen::Vector2f> target;               ///< points, right of and above the centre [m]
+  double half_thickness_m = 0.02;
+  std::vector<Eigen::Vector2f> target;  ///< points, right of and above the centre [m]
   std::vector<Eigen::Vector2f> source;
 };
 
-/// Points within 2 cm of the section and 20 m of its centre, of each scan an even subsample of at most most_points.
+/// Points within 2 cm of the section (up to 16 cm where scans are thin) and 20 m of its centre, of each scan an even
+/// subsample of at most most_points.
 OverlapSection overlap_section(const TileSource& target, const Pose& local_from_target, const TileSource& source,
                                const Pose& local_from_source, std::size_t most_points, const Progress& progress);
 

@@ -16,7 +16,6 @@ namespace {
 struct Shadow {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  double points = 0.0;
 
   Eigen::AlignedBox2d box() const {
     constexpr double sigmas = 4.0;
@@ -30,16 +29,16 @@ std::vector<Shadow> shadows_of(const DistributionMap& cells, const Pose& frame_f
   for (const NormalDistribution& cell : cells.distributions()) {
     const Eigen::Matrix3d covariance =
         frame_from_scan.linear() * cell.covariance * frame_from_scan.linear().transpose();
-    shadows.push_back({(frame_from_scan * cell.mean).head<2>(), covariance.topLeftCorner<2, 2>(), cell.points});
+    shadows.push_back({(frame_from_scan * cell.mean).head<2>(), covariance.topLeftCorner<2, 2>()});
     // A wall thinner than a pixel would fall between two.
     shadows.back().covariance.diagonal().array() += least_sigma_m * least_sigma_m;
   }
   return shadows;
 }
 
-void add(ProbabilityImage& image, const Shadow& shadow, double all_points) {
+void add(ProbabilityImage& image, const Shadow& shadow, double share) {
   const Eigen::Matrix2d inverse = shadow.covariance.inverse();
-  const double peak = shadow.points / all_points / (2.0 * pi * std::sqrt(shadow.covariance.determinant()));
+  const double peak = share / (2.0 * pi * std::sqrt(shadow.covariance.determinant()));
   const Eigen::AlignedBox2d box = shadow.box();
   const Eigen::Vector2d low = (box.min() - image.corner) / image.pixel_m;
   const Eigen::Vector2d high = (box.max() - image.corner) / image.pixel_m;
@@ -62,17 +61,13 @@ ProbabilityImage probability_from_above(const DistributionMap& cells, const Pose
   ProbabilityImage image;
   const std::vector<Shadow> shadows = shadows_of(cells, frame_from_scan, 0.5 * pixel_m);
   Eigen::AlignedBox2d box;
-  double points = 0.0;
-  for (const Shadow& shadow : shadows) {
-    box.extend(shadow.box());
-    points += shadow.points;
-  }
+  for (const Shadow& shadow : shadows) box.extend(shadow.box());
   image.corner = box.min();
   image.pixel_m = std::max(pixel_m, std::sqrt(box.sizes().prod() / static_cast<double>(most_pixels)));
   image.width = static_cast<int>(box.sizes().x() / image.pixel_m) + 1;
   image.height = static_cast<int>(box.sizes().y() / image.pixel_m) + 1;
   image.density_per_m2.assign(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), 0.0F);
-  for (const Shadow& shadow : shadows) add(image, shadow, points);
+  for (const Shadow& shadow : shadows) add(image, shadow, 1.0 / static_cast<double>(shadows.size()));
   return image;
 }
 

@@ -13,7 +13,7 @@ struct ProbabilityImage {
   double pixel_m = 0.05;
   int width = 0;
   int height = 0;
-  std::vector<float> density_per_m2;  ///< of a point's place, seen from above; rows from the lowest y
+  std::vector<float> density_per_m2;  ///< seen from above; rows from the lowest y
 
   float at(int column, int row) const {
     return density_per_m2[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
@@ -21,7 +21,7 @@ struct ProbabilityImage {
   }
 };
 
-/// The mixture of all cells, each with the share of the points it holds, over x and y of another frame. At most
+/// The mixture of all cells, each alike as in the transform's score, over x and y of another frame. At most
 /// most_pixels: pixels are made larger for larger scans. Error for no distributions.
 ProbabilityImage probability_from_above(const DistributionMap& cells, const Pose& frame_from_scan, double pixel_m,
                                         std::size_t most_pixels = 4000000);

@@ -88,17 +88,17 @@ void add_pairs(PageFlow& flow, const Results& results) {
     return;
   }
   flow.subheading("How the pairs fit");
-  Table table{{{"scan", 23, false},
-               {"on", 23, false},
+  Table table{{{"scan", 20, false},
+               {"on", 20, false},
                {"overlap", 14, true},
-               {"median mm", 15, true},
-               {"rms mm", 13, true},
-               {"within 6 mm", 17, true},
-               {"faces along, across, up", 31, true},
-               {"agreeing", 14, true},
-               {"seen through", 18, true},
-               {"iterations", 14, true},
-               {"used", 7, false}},
+               {"median mm", 13, true},
+               {"rms mm", 12, true},
+               {"within 6 mm", 15, true},
+               {"along, across, up", 32, true},
+               {"agreeing", 15, true},
+               {"seen through", 16, true},
+               {"iterations", 17, true},
+               {"used", 13, false}},
               {},
               2.2};
   for (const PairResult& p : pairs)
@@ -109,7 +109,7 @@ void add_pairs(PageFlow& flow, const Results& results) {
                           p.used ? TableCell("yes") : TableCell("no", colours::red, true)});
   flow.table(table);
   flow.paragraph(
-      "Residuals are distances to the surface that both scans make. Agreeing: points that lie on the other scan's "
+      "Residuals are distances to the surface that both scans make. Along, across, up: where the overlap faces. Agreeing: points that lie on the other scan's "
       "surface, of those where it shows one or its scanner saw through. Seen through: points where the other scanner "
       "measured something behind; what stands there moved, or the pair is wrong. Times: pair_timing_s in results.json.",
       colours::grey, 2.3);

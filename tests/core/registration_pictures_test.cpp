@@ -66,7 +66,7 @@ double all_of(const ProbabilityImage& image) {
   return sum * image.pixel_m * image.pixel_m;
 }
 
-TEST(ProbabilityImage, HoldsAllPointsAndIsDensestAtWalls) {
+TEST(ProbabilityImage, HoldsAllCellsAndIsDensestAtWalls) {
   const ProbabilityImage image = probability_from_above(floor_and_wall(), Pose::Identity(), 0.05);
   EXPECT_NEAR(all_of(image), 1.0, 0.01);
   const auto density = [&](double x, double y) {
