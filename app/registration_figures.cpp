@@ -1,9 +1,12 @@
 #include "app/registration_figures.h"
 
 #include <cctype>
-#include <cstdio>
+#include <cstring>
+#include <string>
+#include <system_error>
 
 #include "app/pair_sections.h"
+#include "core/foundation/error.h"
 #include "io/atomic_file.h"
 #include "render/probability_drawing.h"
 
@@ -23,6 +26,28 @@ std::string in_file_name(const std::string& name) {
   return word;
 }
 
+/// Names that these pictures have: ndt-1-..., overlap-1-...
+bool is_ours(const std::string& name) {
+  for (const char* begin : {"ndt-", "overlap-"})
+    if (name.starts_with(begin) && name.ends_with(".png") &&
+        std::isdigit(static_cast<unsigned char>(name[std::strlen(begin)])) != 0)
+      return true;
+  return false;
+}
+
+/// An own folder, without what an earlier run left; what else lies there is not ours to touch.
+void clear(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::file_status status = fs::symlink_status(folder, ignored);
+  if (fs::exists(status) && !fs::is_directory(status))
+    throw Error("this is no folder", folder.string(), "move it, or choose another folder with --out");
+  fs::create_directories(folder);
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_ours(entry.path().filename().string()) && !entry.is_directory(ignored)) old.push_back(entry.path());
+  for (const fs::path& file : old) fs::remove(file);
+}
+
 render::Picture distributions_picture(const JobState& state, std::size_t scan, Progress& progress) {
   const auto& options = state.job.options.profiling;
   const io::PointStore& store = *state.stores[scan];
@@ -32,15 +57,15 @@ render::Picture distributions_picture(const JobState& state, std::size_t scan, P
                               cell_m, {});
   return render::probability_picture(
       probability_from_above(cells, state.results.registration.scans[scan].local_from_scan, pixel_m),
-      state.job.scans[scan].name + ": normal distributions in cells of 1 m, seen from above, north up");
+      state.job.scans[scan].name +
+          ": normal distributions in cells of 1 m, from above, north up; black: nothing, white: walls on edge");
 }
 
 }  // namespace
 
 std::vector<fs::path> write_registration_figures(const JobState& state, Progress& progress) {
   const fs::path folder = state.out / "figures";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  clear(folder);
   std::vector<fs::path> files;
   const auto write = [&](const std::string& name, const render::Picture& picture) {
     files.push_back(folder / (name + ".png"));

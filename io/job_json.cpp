@@ -182,7 +182,9 @@ Job read_job(const fs::path& file) {
   if (place.has("rounds")) job.rounds = read_rounds(place.at("rounds"));
   if (place.has("options")) {
     const JsonPlace options = place.at("options");
-    options.only_keys({"import", "registration", "profiling", "surface"});
+    std::vector<std::string> groups;
+    for_each_group(job.options, [&](const char* group, auto&) { groups.emplace_back(group); });
+    options.only_keys(groups);
     for_each_group(job.options, [&](const char* group, auto& members) {
       if (!options.has(group)) return;
       OptionsFromJson reader(options.at(group));

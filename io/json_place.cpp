@@ -124,12 +124,12 @@ void JsonPlace::refuse(const std::string& what_is_wrong, const std::string& mend
   throw Error(what_is_wrong, key_.empty() ? file_ : file_ + ": " + key_, mend);
 }
 
-void JsonPlace::only_keys(std::initializer_list<const char*> known) const {
+void JsonPlace::only_keys(const std::vector<std::string>& known) const {
   if (!value_->is_object()) refuse("an object { } is needed, found " + found(), "see docs/formats.md");
   for (const auto& [name, member] : value_->items()) {
-    if (std::any_of(known.begin(), known.end(), [&, &key = name](const char* k) { return key == k; })) continue;
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     std::string list;
-    for (const char* k : known) list += (list.empty() ? "" : ", ") + std::string(k);
+    for (const std::string& k : known) list += (list.empty() ? "" : ", ") + k;
     refuse("unknown key \"" + name + "\"", "known here: " + list);
   }
 }

@@ -20,7 +20,7 @@ class JsonPlace {
       : value_(&value), file_(std::move(file)), key_(std::move(key)) {}
 
   /// Throws Error "unknown key" for a member that is not listed, naming the ones that are.
-  void only_keys(std::initializer_list<const char*> known) const;
+  void only_keys(const std::vector<std::string>& known) const;
   bool has(const std::string& key) const;
   JsonPlace at(const std::string& key) const;  ///< throws Error when the key is missing
   std::vector<JsonPlace> items() const;        ///< of an array

@@ -89,10 +89,11 @@ json registration_json(const Results& results) {
     out["control"].push_back({{"scan", c.scan},
                               {"id", c.id},
                               {"residual_mm", {1e3 * c.residual_m.x(), 1e3 * c.residual_m.y(), 1e3 * c.residual_m.z()}},
-                              {"redundancy", c.redundancy},
-                              {"normalised", c.normalised},
+                              {"redundancy", c.used ? json(c.redundancy) : json(nullptr)},
+                              {"normalised", c.used ? json(c.normalised) : json(nullptr)},
                               {"used", c.used}});
   out["datum_sigma_mm"] = 1e3 * registration.datum_sigma_m;
+  out["sigma_factor"] = registration.sigma_factor;
   out["control_rms_mm"] = 1e3 * registration.control_rms_m;
   return out;
 }

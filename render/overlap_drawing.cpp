@@ -88,11 +88,19 @@ void draw_overlap(Canvas& canvas, const Rect& rect, const PairSection& shown) {
     const Eigen::Vector2d size = box.sizes().cwiseMax(0.5);
     const double scale = 0.95 * std::min(whole.width / size.x(), whole.height / size.y());
     draw_points(canvas, {whole, box.center(), scale}, section, 0.12);
+    const double bar_m = round_down(0.3 * whole.width / scale);
+    canvas.line({whole.left + 1.0, whole.bottom() - 1.2}, {whole.left + 1.0 + bar_m * scale, whole.bottom() - 1.2},
+                {colours::black, 0.35, {}});
+    canvas.text({whole.left + 1.8 + bar_m * scale, whole.bottom() - 1.2}, fixed(bar_m, bar_m < 1.0 ? 1 : 0) + " m",
+                {.size_mm = 1.9, .down = Down::middle});
     for (int i = 0; i < 2; ++i) {
       const Eigen::Vector2d place =
           meeting_place(section, i == 0 ? Eigen::Vector2d::UnitY() : Eigen::Vector2d::UnitX());
       const Rect detail{whole.right() + 1.5, rect.top + i * (side + 1.0), side, side};
       draw_points(canvas, {detail, place, side / detail_m}, section, 0.25);
+      const PaperPoint at = Window{whole, box.center(), scale}.paper(place.cast<float>());
+      const double half = 0.5 * detail_m * scale;
+      canvas.frame({at.x() - half, at.y() - half, 2.0 * half, 2.0 * half}, {colours::grey, 0.2, {}});
       canvas.text({detail.left + 0.6, detail.top + 0.4}, i == 0 ? "above" : "right",
                   {.size_mm = 1.9, .colour = colours::grey});
     }

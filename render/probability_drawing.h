@@ -8,8 +8,8 @@
 
 namespace adit::render {
 
-/// One pixel for one of the image's, brighter where points are likelier (the root of the density, full at its 99th
-/// percentile), north up, a scale bar and words beneath.
+/// One pixel for one of the image's, brighter where points are likelier (black, blue, orange, white: the root of the
+/// density, full at its 99th percentile), north up, a scale bar and words beneath.
 Picture probability_picture(const ProbabilityImage& image, const std::string& words);
 
 }  // namespace adit::render

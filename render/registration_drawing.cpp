@@ -27,7 +27,7 @@ void draw_pair_bars(Canvas& canvas, const Rect& rect, std::vector<PairResult> pa
   const std::size_t shown = std::min(room, pairs.size());
   const double most_mm = std::max(1.0, 1100.0 * pairs.front().rms_m);
   const PlotArea area{
-      {rect.left + names_mm, rect.top, rect.width - names_mm - 14.0, static_cast<double>(shown) * step_mm},
+      {rect.left + names_mm, rect.top, rect.width - names_mm - 20.0, static_cast<double>(shown) * step_mm},
       0.0,
       most_mm,
       0.0,

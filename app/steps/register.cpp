@@ -19,7 +19,7 @@ bool wanted(const JobState&) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "register 5|" + state.keys.at("import");
+  std::string text = "register 6|" + state.keys.at("import");
   for (const JobScan& scan : state.job.scans) {
     if (!scan.position) continue;
     for (const double value : {scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,

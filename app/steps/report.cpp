@@ -78,6 +78,16 @@ render::ReportContent content_of(const JobState& state, Progress& progress) {
   return content;
 }
 
+/// Those that are no longer cut; what else lies there is not ours to touch.
+void remove_sections(const fs::path& folder) {
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("section_") && name.ends_with(".png") && entry.is_regular_file()) old.push_back(entry.path());
+  }
+  for (const fs::path& file : old) fs::remove(file);
+}
+
 LeftFiles run(JobState& state, const StepContext& context, Progress& progress) {
   if (!context.make_gl_context) throw Error("this program has no way to draw 3D pictures", "report", "use adit report");
   const auto gl = context.make_gl_context();
@@ -85,8 +95,8 @@ LeftFiles run(JobState& state, const StepContext& context, Progress& progress) {
   const render::ReportContent content = content_of(state, reading);
   Progress drawing = progress.part(0.8, "drawing the report");
   const render::ReportFiles files = render::draw_report(content, *gl, drawing);
-  fs::remove_all(state.out / "report");  // pictures of sections that are no longer cut
   fs::create_directories(state.out / "report");
+  remove_sections(state.out / "report");
   LeftFiles left;
   for (const auto& picture : files.pictures) {
     left.push_back(picture.name == "map.png" ? fs::path(picture.name) : fs::path("report") / picture.name);

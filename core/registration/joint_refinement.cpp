@@ -9,7 +9,7 @@
 namespace adit {
 namespace {
 
-constexpr int most_turns = 3;
+constexpr int most_turns = 10;
 constexpr double still_m = 1e-5;
 
 HeldDirections held_directions(const std::vector<std::string>& undetermined) {

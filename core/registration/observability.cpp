@@ -1,6 +1,7 @@
 #include "core/registration/observability.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -40,9 +41,25 @@ std::vector<Eigen::Index> free_of(const HeldDirections& held) {
 /// Everything in metres of the six directions.
 struct Known {
   Matrix6d hessian, noise;
-  std::vector<Matrix6d> gradient_covariances;  ///< by cubes of several sizes
-  double robust_share;                         ///< of the hessian that counts with Tukey's weights
+  std::vector<std::vector<CubeSums>> cubes;  ///< of several sizes
+  double robust_share;                       ///< of the hessian that counts with Tukey's weights
 };
+
+/// Sum of g g^T, each cube's gradient as it would be had the cube not pulled the solution towards itself: its residuals
+/// are too small by that (Bell and McCaffrey 2002, the jackknife's CR3).
+Eigen::MatrixXd gradient_covariance(const std::vector<CubeSums>& cubes, const Eigen::MatrixXd& signal,
+                                    double robust_share, const std::vector<Eigen::Index>& free) {
+  const auto size = signal.rows();
+  const Eigen::MatrixXd inverse = signal.inverse();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
+  for (const CubeSums& cube : cubes) {
+    const Eigen::MatrixXd others =
+        Eigen::MatrixXd::Identity(size, size) - robust_share * cube.hessian(free, free) * inverse;
+    const Eigen::VectorXd gradient = others.partialPivLu().solve(Eigen::VectorXd(cube.gradient(free)));
+    sum += gradient * gradient.transpose();
+  }
+  return sum;
+}
 
 /// Of the sizes of cubes that which makes the most of the errors.
 Eigen::MatrixXd covariance_of(const Known& known, const std::vector<Eigen::Index>& free) {
@@ -51,8 +68,8 @@ Eigen::MatrixXd covariance_of(const Known& known, const std::vector<Eigen::Index
       floored(known.robust_share * hessian - known.noise(free, free), 1e-9 * hessian.trace());
   const Eigen::MatrixXd inverse = signal.inverse();
   Eigen::MatrixXd worst = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
-  for (const Matrix6d& gradient : known.gradient_covariances) {
-    const Eigen::MatrixXd covariance = inverse * gradient(free, free) * inverse;
+  for (const std::vector<CubeSums>& cubes : known.cubes) {
+    const Eigen::MatrixXd covariance = inverse * gradient_covariance(cubes, signal, known.robust_share, free) * inverse;
     if (covariance.trace() > worst.trace()) worst = covariance;
   }
   return worst;
@@ -135,17 +152,27 @@ PairInformation judge_observability(std::span<const SurfaceMatch> matches, doubl
               in_metres(equations.noise),
               {},
               std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.3, 1.0)};
-  for (const double cube_m : {1.0, 2.0, 4.0})
-    known.gradient_covariances.push_back(in_metres(gradient_covariance(matches, tukey_m, cube_m)));
+  for (const double cube_m : {1.0, 2.0, 4.0}) {
+    constexpr std::size_t enough_cubes = 24;  // of fewer, in small rooms, no spread can be told
+    std::vector<CubeSums> cubes = sums_by_cubes(matches, tukey_m, cube_m);
+    if (!known.cubes.empty() && cubes.size() < enough_cubes) break;
+    known.cubes.push_back(std::move(cubes));
+    for (CubeSums& cube : known.cubes.back()) {
+      cube.hessian = in_metres(cube.hessian);
+      cube.gradient = columns.transpose() * cube.gradient;
+    }
+  }
   PairInformation result;
+  constexpr std::size_t least_matches = 50;  // of fewer, nothing can be measured
   result.undetermined = held;
-  std::vector<Eigen::Index> free = free_of(held);
+  if (matches.size() < least_matches) result.undetermined.fill(true);
+  std::vector<Eigen::Index> free = free_of(result.undetermined);
   constexpr double unknown_m = 10.0;  // variances of 100 m2 tell nothing and keep the inverse well conditioned
   Matrix6d covariance = Matrix6d::Zero();
   Vector6d sigma_m = Vector6d::Constant(unknown_m);
   const double least_variance = std::max(1e-14, limits.least_sigma_m * limits.least_sigma_m);
   for (std::size_t i = 0; i < directions; ++i)
-    if (held[i])
+    if (result.undetermined[i])
       covariance += unknown_m * unknown_m * Vector6d::Unit(static_cast<Eigen::Index>(i)) *
                     Vector6d::Unit(static_cast<Eigen::Index>(i)).transpose();
   while (!free.empty()) {

@@ -1,6 +1,7 @@
 #include "core/registration/overlap_section.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace adit {
@@ -8,8 +9,8 @@ namespace {
 
 constexpr double radius_m = 20.0;
 constexpr double least_half_thickness_m = 0.02;
-constexpr double most_half_thickness_m = 0.16;
-constexpr std::size_t enough_points = 600;  // of each scan
+constexpr double most_half_thickness_m = 0.04;
+constexpr std::size_t enough_points = 250;  // of each scan
 
 bool touches(const BoundingBox& box, const Eigen::Vector3d& centre, const Eigen::Vector3d& normal,
              double half_thickness_m) {
@@ -22,6 +23,36 @@ std::vector<Eigen::Vector2f> even_part(const std::vector<Eigen::Vector2f>& point
   std::vector<Eigen::Vector2f> kept;
   for (std::size_t i = 0; i < most; ++i) kept.push_back(points[i * points.size() / most]);
   return kept;
+}
+
+/// Points of a thin part of the scan by their place along a line through the middle, in steps of a metre.
+using AlongLine = std::array<std::size_t, 2 * static_cast<std::size_t>(radius_m) + 1>;
+AlongLine along_line(const TileSource& scan, const Pose& local_from_scan, const Eigen::Vector3d& middle,
+                     const Eigen::Vector3d& ahead) {
+  constexpr std::size_t of_a_tile = 500;
+  AlongLine counts{};
+  for (std::size_t tile = 0; tile < scan.tile_count(); ++tile)
+    for (const auto& p : scan.positions(tile, of_a_tile)) {
+      const Eigen::Vector3d arm = local_from_scan * p.cast<double>() - middle;
+      const double place = ahead.dot(arm) + radius_m + 0.5;
+      if (arm.norm() < radius_m) ++counts[static_cast<std::size_t>(std::max(0.0, place))];
+    }
+  return counts;
+}
+
+/// Metres ahead of the middle: there, when it is seen well enough, else where the scan that sees less sees most.
+double best_seen_m(const TileSource& target, const Pose& local_from_target, const TileSource& source,
+                   const Pose& local_from_source, const Eigen::Vector3d& middle, const Eigen::Vector3d& ahead) {
+  constexpr double well_enough = 0.3;  // of the most
+  const AlongLine of_target = along_line(target, local_from_target, middle, ahead);
+  const AlongLine of_source = along_line(source, local_from_source, middle, ahead);
+  const auto both = [&](std::size_t i) { return std::min(of_target[i], of_source[i]); };
+  std::size_t best = of_target.size() / 2;
+  std::size_t most = best;
+  for (std::size_t i = 0; i < of_target.size(); ++i)
+    if (both(i) > both(most)) most = i;
+  if (static_cast<double>(both(best)) < well_enough * static_cast<double>(both(most))) best = most;
+  return static_cast<double>(best) - radius_m;
 }
 
 std::vector<Eigen::Vector2f> points_of(const TileSource& scan, const Pose& local_from_scan,
@@ -51,10 +82,12 @@ std::vector<Eigen::Vector2f> points_of(const TileSource& scan, const Pose& local
 OverlapSection overlap_section(const TileSource& target, const Pose& local_from_target, const TileSource& source,
                                const Pose& local_from_source, std::size_t most_points, const Progress& progress) {
   OverlapSection section;
-  section.centre = 0.5 * (local_from_target.translation() + local_from_source.translation());
+  const Eigen::Vector3d middle = 0.5 * (local_from_target.translation() + local_from_source.translation());
   Eigen::Vector3d ahead = local_from_source.translation() - local_from_target.translation();
   ahead.z() = 0.0;
   if (ahead.norm() < 0.3) ahead = Eigen::Vector3d::UnitY();  // both scans from one place: any section will do
+  ahead.normalize();
+  section.centre = middle + best_seen_m(target, local_from_target, source, local_from_source, middle, ahead) * ahead;
   section.right = ahead.cross(Eigen::Vector3d::UnitZ()).normalized();
   for (section.half_thickness_m = least_half_thickness_m;; section.half_thickness_m *= 2.0) {
     section.target = points_of(target, local_from_target, section, progress);

@@ -1,6 +1,8 @@
 #include "core/registration/registration.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "core/foundation/angle.h"
 #include "core/registration/adjustment.h"
@@ -90,6 +92,17 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
   }
 }
 
+/// Root of the variance factor of what was used, each pair by itself; 1 at least, and where nothing checks anything.
+double sigma_factor_of(const PoseGraph& used, const PoseGraphResult& solved) {
+  double squares = std::accumulate(solved.pair_misfit.begin(), solved.pair_misfit.end(), 0.0);
+  for (const Eigen::Vector3d& residual : solved.control_residual_m)
+    squares += residual.squaredNorm() / (used.control_sigma_m * used.control_sigma_m);
+  const double observations =
+      6.0 * static_cast<double>(used.pairs.size()) + 3.0 * static_cast<double>(used.control.size());
+  const double unknowns = 6.0 * static_cast<double>(used.local_from_scan.size() - (used.datum ? 1 : 0));
+  return observations > unknowns ? std::sqrt(std::max(1.0, squares / (observations - unknowns))) : 1.0;
+}
+
 /// Takes over what was used: pairs into the result, and only the control that was used stays with the nodes.
 void keep_used(RegistrationResult& result, std::vector<Node>& nodes, const Adjustment& adjustment,
                const PoseGraph& graph) {
@@ -142,9 +155,11 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   const Adjustment adjustment = adjusted(graph, adjusting);
   report_contradictions(result, adjustment, graph, nodes);
   keep_used(result, nodes, adjustment, graph);
-  const JointRefinement joint = options.refinement == Refinement::surfaces
-                                    ? refine_jointly(graph, adjustment, nodes, result.pairs, context, adjusting)
-                                    : JointRefinement{used_part(graph, adjustment), adjustment.solved};
+  JointRefinement joint = options.refinement == Refinement::surfaces
+                              ? refine_jointly(graph, adjustment, nodes, result.pairs, context, adjusting)
+                              : JointRefinement{used_part(graph, adjustment), adjustment.solved};
+  result.sigma_factor = sigma_factor_of(used_part(graph, adjustment), adjustment.solved);
+  for (Matrix6d& covariance : joint.solved.covariance) covariance *= result.sigma_factor * result.sigma_factor;
   result.loops = loop_closures(used_part(graph, adjustment), joint.graph, nodes);
   place_nodes(result, nodes, candidates, graph, joint.solved, context, options);
   report_control(result, adjustment, joint.solved, graph, nodes, options);

@@ -31,7 +31,7 @@ struct RegistrationOptions {
   double guess_sigma_m = 0.5;     ///< how far guesses may be off (one sigma)
   double guess_sigma_deg = 2.0;
   double control_sigma_m = 0.002;      ///< of a target against its control point, per axis
-  double pair_sigma_m = 0.0002;        ///< least sigma of a pair: what a scanner bends and no overlap shows
+  double pair_sigma_m = 0.00015;       ///< least sigma of a pair: what a scanner bends and no overlap shows
   double undetermined_sigma_m = 0.02;  ///< a direction weaker than this is named and held at its prior
   NdtSources ndt_sources = NdtSources::distributions;
   Refinement refinement = Refinement::surfaces;
@@ -126,6 +126,9 @@ struct RegistrationResult {
   std::vector<LoopClosure> loops;
   std::vector<ControlResidual> control;
   double control_rms_m = 0.0;
+  /// By how much observations contradict one another beyond their sigmas: the root of the variance factor (sum of
+  /// squares in sigmas over redundancy), 1 at least. The sigmas of the scans are already multiplied by it.
+  double sigma_factor = 1.0;
   /// How well the whole survey stands in the site frame, beside the sigmas of the scans, which are relative to the
   /// datum: zero with control; without, what the guess of the datum scan is worth (position, and direction over half
   /// the span).

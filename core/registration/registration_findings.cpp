@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 
 #include "core/foundation/angle.h"
 #include "core/geometry/pose_step.h"
@@ -12,14 +13,17 @@
 namespace adit {
 namespace {
 
+constexpr double huber_sigmas = 4.0;           // as in the adjustment
 constexpr double wrong_residual_sigmas = 4.0;  // one in 16,000 by chance
 
-/// What of a target's errors shows in its residual: I - J C J^T / sigma^2.
+/// What of a target's errors shows in its residual: I - w J C J^T / sigma^2 with the weight w that Huber's loss left
+/// it.
 Eigen::Vector3d redundancy_of(const Pose& local_from_scan, const Matrix6d& covariance, const Eigen::Vector3d& in_scan,
-                              double sigma_m) {
+                              double residual_m, double sigma_m) {
+  const double weight = std::min(1.0, huber_sigmas * sigma_m / std::max(residual_m, 1e-12));
   Eigen::Matrix<double, 3, 6> j;
   j << -cross_matrix(local_from_scan.linear() * in_scan), Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d taken = (j * covariance * j.transpose()).diagonal() / (sigma_m * sigma_m);
+  const Eigen::Vector3d taken = weight * (j * covariance * j.transpose()).diagonal() / (sigma_m * sigma_m);
   return (Eigen::Vector3d::Ones() - taken).cwiseMax(0.0).cwiseMin(1.0);
 }
 
@@ -111,7 +115,7 @@ void report_control(RegistrationResult& result, const Adjustment& adjustment, co
     ControlResidual& reported = result.control.back();
     const Eigen::Vector3d redundancy =
         redundancy_of(solved.local_from_scan[control.node], solved.covariance[control.node], control.in_scan,
-                      options.control_sigma_m);
+                      residual.norm(), options.control_sigma_m);
     constexpr double least_redundancy = 0.01;  // of less, a residual is rounding
     reported.redundancy = redundancy.mean();
     reported.normalised =
@@ -133,8 +137,9 @@ void name_undetermined(PlacedScan& scan, const RegistrationOptions& options, Fin
     if (sigma_m <= options.undetermined_sigma_m) continue;
     scan.undetermined.emplace_back(direction);
     char words[160];
-    std::snprintf(words, sizeof words, "%s the tunnel: not determined by the clouds (sigma %.0f mm), held at the guess",
-                  direction, 1000.0 * sigma_m);
+    std::snprintf(words, sizeof words, "%s: not determined by the clouds (sigma %.0f mm), held at the guess",
+                  std::string_view(direction) == "up" ? "vertically" : (std::string(direction) + " the tunnel").c_str(),
+                  1000.0 * sigma_m);
     findings.push_back(
         {Severity::decision, "scan " + scan.name, words, "survey targets for this scan or add scans between"});
   }
@@ -184,12 +189,13 @@ void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, con
          "survey three targets, or give one scan a pose in job.json"});
     return;
   }
+  const bool some_control = std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return !n.control.empty(); });
   char words[240];
   std::snprintf(
       words, sizeof words,
-      "there is no control: the survey stands in the site as the guess of its first scan says (sigma %.0f mm), "
-      "and so do overbreak and underbreak",
-      1000.0 * result.datum_sigma_m);
+      "%s: the survey stands in the site as guesses of its scans say (sigma %.0f mm), and so do overbreak and "
+      "underbreak",
+      some_control ? "no scan has three targets" : "there is no control", 1000.0 * result.datum_sigma_m);
   result.findings.push_back(
       {Severity::decision, "datum", words,
        "survey three targets, or state in registration.guess_sigma_m and guess_sigma_deg how well the "

@@ -116,22 +116,20 @@ NormalEquations normal_equations(std::span<const SurfaceMatch> matches, double t
   });
 }
 
-Matrix6d gradient_covariance(std::span<const SurfaceMatch> matches, double tukey_m, double cube_m) {
+std::vector<CubeSums> sums_by_cubes(std::span<const SurfaceMatch> matches, double tukey_m, double cube_m) {
   std::vector<std::pair<std::uint64_t, std::size_t>> by_cube;
   for (std::size_t i = 0; i < matches.size(); ++i) by_cube.emplace_back(cell_key(in_cells(matches[i].arm, cube_m)), i);
   std::sort(by_cube.begin(), by_cube.end());
-  Matrix6d covariance = Matrix6d::Zero();
-  Vector6d sum = Vector6d::Zero();
-  double cubes = 0.0;
+  std::vector<CubeSums> cubes;
   for (std::size_t n = 0; n < by_cube.size(); ++n) {
+    if (n == 0 || by_cube[n - 1].first != by_cube[n].first) cubes.emplace_back();
     const SurfaceMatch& match = matches[by_cube[n].second];
-    sum += tukey(match.residual_m, tukey_m).weight * match.residual_m * jacobian(match);
-    if (n + 1 < by_cube.size() && by_cube[n + 1].first == by_cube[n].first) continue;
-    covariance += sum * sum.transpose();
-    sum.setZero();
-    cubes += 1.0;
+    const Vector6d j = jacobian(match);
+    const Vector6d weighted = tukey(match.residual_m, tukey_m).weight * j;
+    cubes.back().hessian.noalias() += weighted * j.transpose();
+    cubes.back().gradient += match.residual_m * weighted;
   }
-  return covariance * (cubes > 6.0 ? cubes / (cubes - 6.0) : 1.0);  // six parameters were fitted
+  return cubes;
 }
 
 }  // namespace adit

@@ -42,8 +42,12 @@ struct NormalEquations {
 };
 NormalEquations normal_equations(std::span<const SurfaceMatch> matches, double tukey_m);
 
-/// Covariance of the gradient, measured: gradients are summed by cubes, within which surfaces may err together, and the
-/// squares of these sums are added (White 1980, by clusters).
-Matrix6d gradient_covariance(std::span<const SurfaceMatch> matches, double tukey_m, double cube_m);
+/// Sums over the matches of one cube of space, weighted as those of NormalEquations.
+struct CubeSums {
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+};
+/// Matches summed up by cubes of edge cube_m, within which surfaces may err together. In a fixed order.
+std::vector<CubeSums> sums_by_cubes(std::span<const SurfaceMatch> matches, double tukey_m, double cube_m);
 
 }  // namespace adit

@@ -23,8 +23,17 @@ TableCell sigma_mm(double sigma_m, bool undetermined) {
   return {fixed(1000.0 * sigma_m, 1), undetermined ? colours::red : colours::black, undetermined};
 }
 
+TableCell sigma_mdeg(double sigma_rad, bool undetermined) {
+  return {fixed(1000.0 * deg_from_rad(sigma_rad), 1), undetermined ? colours::red : colours::black, undetermined};
+}
+
 std::string mdeg(double angle_rad) {
   return fixed(1000.0 * deg_from_rad(angle_rad), 1);
+}
+
+/// Of a pair by itself: what it does not know has no number.
+TableCell known(const PairResult& pair, const char* direction, double value) {
+  return has(pair.undetermined, direction) ? TableCell("\u2013", colours::red, true) : TableCell(fixed(value, 1));
 }
 
 void add_plan(PageFlow& flow, const ReportContent& content) {
@@ -68,16 +77,17 @@ void add_scans(PageFlow& flow, const Results& results) {
     }
     const Eigen::Vector3d site = results.import.origin.to_site(scan.local_from_scan.translation());
     const PoseSigma& s = scan.sigma;
-    table.rows.push_back({scan.name, scan.placed_by, fixed(site.x(), 3), fixed(site.y(), 3), fixed(site.z(), 3),
-                          sigma_mm(s.along_m, has(scan.undetermined, "along")),
-                          sigma_mm(s.across_m, has(scan.undetermined, "across")),
-                          sigma_mm(s.up_m, has(scan.undetermined, "up")), mdeg(s.roll_rad), mdeg(s.pitch_rad),
-                          mdeg(s.yaw_rad), TableCell(joined(scan.undetermined), colours::red, true)});
+    table.rows.push_back(
+        {scan.name, scan.placed_by, fixed(site.x(), 3), fixed(site.y(), 3), fixed(site.z(), 3),
+         sigma_mm(s.along_m, has(scan.undetermined, "along")), sigma_mm(s.across_m, has(scan.undetermined, "across")),
+         sigma_mm(s.up_m, has(scan.undetermined, "up")), sigma_mdeg(s.roll_rad, has(scan.undetermined, "roll")),
+         sigma_mdeg(s.pitch_rad, has(scan.undetermined, "pitch")), sigma_mdeg(s.yaw_rad, has(scan.undetermined, "yaw")),
+         TableCell(joined(scan.undetermined), colours::red, true)});
   }
   flow.table(table);
   flow.paragraph(
       "Site coordinates of the scanner in metres; one standard deviation along the tunnel, across it and up, and about "
-      "its axes. A direction in red is not known from the clouds or the control; it is held at the guess.",
+      "its axes (thousandths of a degree). A direction in red is not known from the clouds or the control; it is held at the guess.",
       colours::grey, 2.3);
 }
 
@@ -134,11 +144,11 @@ void add_what_pairs_know(PageFlow& flow, const Results& results) {
               {},
               2.2};
   for (const PairResult& p : pairs)
-    table.rows.push_back({p.source, p.target, sigma_mm(p.sigma.along_m, has(p.undetermined, "along")),
-                          sigma_mm(p.sigma.across_m, has(p.undetermined, "across")),
-                          sigma_mm(p.sigma.up_m, has(p.undetermined, "up")), mdeg(p.sigma.roll_rad),
-                          mdeg(p.sigma.pitch_rad), mdeg(p.sigma.yaw_rad),
-                          TableCell(joined(p.undetermined), colours::red, true)});
+    table.rows.push_back(
+        {p.source, p.target, known(p, "along", 1e3 * p.sigma.along_m), known(p, "across", 1e3 * p.sigma.across_m),
+         known(p, "up", 1e3 * p.sigma.up_m), known(p, "roll", 1e3 * deg_from_rad(p.sigma.roll_rad)),
+         known(p, "pitch", 1e3 * deg_from_rad(p.sigma.pitch_rad)), known(p, "yaw", 1e3 * deg_from_rad(p.sigma.yaw_rad)),
+         TableCell(joined(p.undetermined), colours::red, true)});
   flow.table(table);
 }
 
@@ -164,7 +174,7 @@ void add_loops(PageFlow& flow, const Results& results) {
 void add_pair_sections(PageFlow& flow, const ReportContent& content) {
   if (content.pair_sections.empty()) return;
   constexpr double height_mm = 58.0, gap_mm = 3.0;
-  flow.subheading("Sections through the overlap, half-way between two stations", height_mm);
+  flow.subheading("Sections through the overlap, across the line between two stations", height_mm);
   const double width_mm = 0.5 * (flow.width_mm() - gap_mm);
   for (std::size_t i = 0; i < content.pair_sections.size(); i += 2) {
     const Rect row = flow.take(height_mm + gap_mm);
@@ -202,12 +212,17 @@ void add_control(PageFlow& flow, const Results& results) {
               {},
               2.3};
   for (const ControlResidual& r : results.registration.control)
-    table.rows.push_back({r.scan, r.id, with_sign(1000.0 * r.residual_m.x(), 1),
-                          with_sign(1000.0 * r.residual_m.y(), 1), with_sign(1000.0 * r.residual_m.z(), 1),
-                          fixed(1000.0 * r.residual_m.norm(), 1), r.used ? fixed(r.redundancy, 2) : "",
-                          r.used ? fixed(r.normalised, 1) : "",
-                          TableCell(r.used ? "yes" : "no", r.used ? colours::black : colours::red, !r.used)});
+    table.rows.push_back(
+        {r.scan, r.id, with_sign(1000.0 * r.residual_m.x(), 1), with_sign(1000.0 * r.residual_m.y(), 1),
+         with_sign(1000.0 * r.residual_m.z(), 1), fixed(1000.0 * r.residual_m.norm(), 1),
+         r.used ? fixed(r.redundancy, 2) : "",
+         TableCell(r.used ? fixed(r.normalised, 1) : "", r.normalised > 4.0 ? colours::red : colours::black),
+         TableCell(r.used ? "yes" : "no", r.used ? colours::black : colours::red, !r.used)});
   flow.table(table);
+  flow.paragraph(
+      "Redundancy: how much of an error of this target the others would show, 0 nothing, 1 all. Normalised: the greatest "
+      "residual of an axis over the sigma it should have; over 4 is a blunder.",
+      colours::grey, 2.3);
   flow.paragraph("Root mean square of the targets used, per axis: " +
                      fixed(1000.0 * results.registration.control_rms_m, 1) + " mm.",
                  colours::black, 2.6, true);
@@ -238,6 +253,10 @@ void add_registration_pages(PageFlow& flow, const ReportContent& content) {
     return;
   }
   add_scans(flow, results);
+  if (results.registration.sigma_factor > 1.0)
+    flow.paragraph("Pairs and control contradict one another " + fixed(results.registration.sigma_factor, 1) +
+                       " times beyond their own sigmas; those of the scans are multiplied by it.",
+                   colours::grey, 2.3);
   add_pairs(flow, results);
   add_what_pairs_know(flow, results);
   add_loops(flow, results);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/job_runner.h"
+#include "app/registration_figures.h"
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "io/job_json.h"
@@ -33,6 +34,7 @@ std::vector<std::string> steps_run(const app::JobState& state) {
 nlohmann::json comparable(const Results& results) {
   auto json = nlohmann::json::parse(io::results_text(results));
   json.erase("timing_s");
+  json.erase("pair_timing_s");
   json.erase("peak_memory_bytes");
   return json;
 }
@@ -68,6 +70,31 @@ TEST(RunJobSlow, StepsRunAgainOnlyWhenWhatTheyDependOnChanged) {
 
   fs::resize_file(folder / "out" / "steps" / "map.bin", 1000);  // damaged: simply made again
   EXPECT_EQ(steps_run(*tests::run(folder.path())), (std::vector<std::string>{"profile"}));
+}
+
+TEST(RegistrationFigures, TakeThePlaceOfTheirOwnAloneInTheirFolder) {
+  const TemporaryFolder folder;
+  tests::small_demo(folder.path());
+  app::RunOptions options;
+  options.last_step = "register";
+  Progress progress;
+  const auto state = app::run_job(folder.path(), options, progress);
+  const fs::path figures = folder / "out" / "figures";
+  fs::create_directories(figures / "own");
+  for (const char* name : {"mine.png", "ndt-99-gone.png", "ndt-notes.txt", "own/overlap-1-a-b.png"})
+    std::ofstream(figures / name) << "x";
+  const auto files = app::write_registration_figures(*state, progress);
+  std::size_t pairs = 0;
+  for (const PairResult& pair : state->results.registration.pairs) pairs += pair.used ? 1 : 0;
+  EXPECT_EQ(files.size(), state->stores.size() + pairs);
+  for (const fs::path& file : files) EXPECT_GT(fs::file_size(file), 2000U) << file;
+  EXPECT_FALSE(fs::exists(figures / "ndt-99-gone.png"));
+  for (const char* name : {"mine.png", "ndt-notes.txt", "own/overlap-1-a-b.png"})
+    EXPECT_TRUE(fs::exists(figures / name)) << name;
+  fs::remove_all(figures);
+  std::ofstream(figures) << "a file in the way";
+  EXPECT_THROW(app::write_registration_figures(*state, progress), Error);
+  EXPECT_TRUE(fs::is_regular_file(figures));
 }
 
 TEST(RunJobSlow, DemoIsWithinItsFigures) {
