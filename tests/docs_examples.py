@@ -74,8 +74,13 @@ def check_json(job_keys):
 def groups():
     """Group names and their structs, from the one list of groups."""
     job = source("core/job/job.h")
-    structs = {member: struct for struct, member in re.findall(r"^\s*(\w+Options) (\w+);", job, re.M)}
-    return {group: structs[member] for group, member in re.findall(r'visit\("(\w+)", options\.(\w+)\)', job)}
+    structs = {}
+    for header in ROOT.glob("core/**/*.h"):
+        text = header.read_text(encoding="utf-8")
+        structs.update((member, struct) for struct, member in re.findall(r"^\s*(\w+Options) (\w+);", text, re.M))
+    structs.update((member, struct) for struct, member in re.findall(r"^\s*(\w+Options) (\w+);", job, re.M))
+    members = re.findall(r'visit\("(\w+)", options\.([\w.]+)\)', job)
+    return {group: structs[member.split(".")[-1]] for group, member in members}
 
 
 def arguments(text):
@@ -126,8 +131,10 @@ def described(struct):
         return {}
     body = re.search(r"struct " + struct + r" \{(.*?)\n\};", text, re.S).group(1)
     options = {}
-    for kind, call in re.findall(r"v\.(\w+)\(((?:" + STRING + r"|[^\"();]|\([^()]*\))*)\);", function.group(1)):
-        parts = arguments(call)
+    calls = r"(?:v\.(\w+)|visit_(choice))\(((?:" + STRING + r"|[^\"();]|\([^()]*\))*)\);"
+    for kind, enumeration, call in re.findall(calls, function.group(1)):
+        parts = arguments(call.removeprefix("v, ") if enumeration else call)
+        kind = kind or enumeration
         name, member = joined_string(parts[0]), parts[1].removeprefix("o.")
         default = default_of(body, member)
         if kind in ("number", "count"):
@@ -135,10 +142,10 @@ def described(struct):
         elif kind == "flag":
             options[name] = ("", ("true", "false"), default, joined_string(parts[2]))
         elif kind == "choice":
-            options[name] = ("", tuple(json.loads(w) for w in re.findall(STRING, parts[2])), default.strip('"'), joined_string(parts[3]))
+            options[name] = ("", tuple(json.loads(w) for w in re.findall(STRING, parts[2])), default.split("::")[-1].strip('"'), joined_string(parts[3]))
         else:
             problems.append(f"{struct}: describe() calls {kind}, which this test does not know")
-    if not options or len(options) != function.group(1).count("v."):
+    if not options or len(options) != function.group(1).count("v.") + function.group(1).count("visit_choice(v,"):
         problems.append(f"{struct}: not every line of describe() was understood")
     return options
 

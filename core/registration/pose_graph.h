@@ -47,8 +47,7 @@ struct PoseGraphResult {
   std::vector<Eigen::Vector3d> control_residual_m;
 };
 
-/// Least squares with Cauchy's loss on pairs and guesses, so that a wrong one does not pull the rest (Ceres).
-/// Deterministic.
+/// Least squares with Cauchy's loss on the pairs, so that a wrong pair does not pull the rest (Ceres). Deterministic.
 PoseGraphResult solve_pose_graph(const PoseGraph& graph, Progress& progress);
 
 }  // namespace adit

@@ -112,7 +112,7 @@ void build(Problem& problem, const PoseGraph& graph) {
     problem.ceres.AddParameterBlock(block.data(), 6);
     problem.ceres.AddResidualBlock(new ceres::AutoDiffCostFunction<GuessCost, 6, 6>(
                                        new GuessCost{looser * graph.guess_sigma_rad, looser * graph.guess_sigma_m}),
-                                   new ceres::CauchyLoss(4.0), block.data());
+                                   nullptr, block.data());
   }
   for (const GraphPair& pair : graph.pairs) {
     const PairCost cost{graph.local_from_scan[pair.target], graph.local_from_scan[pair.source], pair.target_from_source,

@@ -79,8 +79,8 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
       has_pairs = has_pairs || (result.pairs[k].used && (candidates[k].source == i || candidates[k].target == i));
     scan.placed = true;
     scan.local_from_scan = solved.local_from_scan[i];
-    scan.sigma =
-        sigma_in_axes(solved.covariance[i], tunnel_axes(axis_at(context, nodes[i], solved.local_from_scan[i])));
+    scan.sigma = sigma_in_axes(result.sigma_factor * result.sigma_factor * solved.covariance[i],
+                               tunnel_axes(axis_at(context, nodes[i], solved.local_from_scan[i])));
     scan.placed_by = how_placed(nodes[i], has_pairs, graph.datum == i);
     if (!tied[i]) {
       result.findings.push_back({Severity::decision, "scan " + scan.name,
@@ -155,11 +155,10 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   const Adjustment adjustment = adjusted(graph, adjusting);
   report_contradictions(result, adjustment, graph, nodes);
   keep_used(result, nodes, adjustment, graph);
-  JointRefinement joint = options.refinement == Refinement::surfaces
-                              ? refine_jointly(graph, adjustment, nodes, result.pairs, context, adjusting)
-                              : JointRefinement{used_part(graph, adjustment), adjustment.solved};
+  const JointRefinement joint = options.refinement == Refinement::surfaces
+                                    ? refine_jointly(graph, adjustment, nodes, result.pairs, context, adjusting)
+                                    : JointRefinement{used_part(graph, adjustment), adjustment.solved};
   result.sigma_factor = sigma_factor_of(used_part(graph, adjustment), adjustment.solved);
-  for (Matrix6d& covariance : joint.solved.covariance) covariance *= result.sigma_factor * result.sigma_factor;
   result.loops = loop_closures(used_part(graph, adjustment), joint.graph, nodes);
   place_nodes(result, nodes, candidates, graph, joint.solved, context, options);
   report_control(result, adjustment, joint.solved, graph, nodes, options);

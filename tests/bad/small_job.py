@@ -35,7 +35,7 @@ def lasting(job, out="out"):
     """results.json without times and memory."""
     results = json.loads((pathlib.Path(job) / out / "results.json").read_text())
     for key in ("timing_s", "pair_timing_s", "peak_memory_bytes"):
-        results.pop(key)
+        results.pop(key, None)
     return results
 
 
