@@ -9,8 +9,9 @@
 
 namespace adit::app {
 
-/// Writes into out/figures, in place of the same pictures of an earlier run (nothing else there is touched): ndt-1-NAME.png for each placed scan (its normal
-/// distributions in cells of 1 m, from above, site axes) and overlap-NAME-NAME.png for each used pair. Gives the files.
+/// Writes into out/figures, in place of the same pictures of an earlier run (nothing else there is touched):
+/// ndt-1-NAME.png for each placed scan (its normal distributions in cells of 1 m, from above, site axes) and
+/// overlap-NAME-NAME.png for each used pair. Gives the files.
 std::vector<std::filesystem::path> write_registration_figures(const JobState& state, Progress& progress);
 
 }  // namespace adit::app
