@@ -2,9 +2,11 @@
 
 #include <cctype>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <system_error>
 
+#include "app/file_name.h"
 #include "app/pair_sections.h"
 #include "core/foundation/error.h"
 #include "io/atomic_file.h"
@@ -17,14 +19,8 @@ namespace fs = std::filesystem;
 constexpr double cell_m = 1.0;  // as in the paper's figure
 constexpr double pixel_m = 0.05;
 constexpr double all_ranges_m = 1e9;
-constexpr std::size_t all_pairs = 1000;
-
-std::string in_file_name(const std::string& name) {
-  std::string word = name.substr(0, 40);
-  for (char& c : word)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
-  return word;
-}
+constexpr std::size_t all_pairs = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t name_bytes = 40;
 
 /// Names that these pictures have: ndt-1-..., overlap-1-...
 bool is_ours(const std::string& name) {
@@ -75,14 +71,14 @@ std::vector<fs::path> write_registration_figures(const JobState& state, Progress
   for (std::size_t i = 0; i < scans; ++i) {
     if (!state.results.registration.scans[i].placed) continue;
     Progress drawing = progress.part(0.5 / static_cast<double>(scans), "drawing distributions");
-    write("ndt-" + std::to_string(i + 1) + "-" + in_file_name(state.job.scans[i].name),
+    write("ndt-" + std::to_string(i + 1) + "-" + in_file_name(state.job.scans[i].name, name_bytes),
           distributions_picture(state, i, drawing));
   }
   Progress cutting = progress.part(0.5, "drawing overlaps");
   std::size_t number = 0;
   for (const render::PairSection& section : pair_sections(state, all_pairs, cutting))
-    write("overlap-" + std::to_string(++number) + "-" + in_file_name(section.pair.source) + "-" +
-              in_file_name(section.pair.target),
+    write("overlap-" + std::to_string(++number) + "-" + in_file_name(section.pair.source, name_bytes) + "-" +
+              in_file_name(section.pair.target, name_bytes),
           render::overlap_picture(section, 130.0, 90.0));
   return files;
 }

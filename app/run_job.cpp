@@ -163,7 +163,7 @@ std::shared_ptr<JobState> run_job(const fs::path& job_file, const RunOptions& op
     if (step.wanted(*state)) {
       Progress part = progress.part(bounds[done + 1] - bounds[done], step.message);
       if (!do_step(*state, step, present, part)) break;
-    } else if (step.name == options.last_step) {
+    } else if (step.name == options.last_step && !state->has_design()) {
       throw Error("the job has no alignment and profile, which \"" + step.name + "\" needs", job_file.string(),
                   "name both files in job.json");
     }

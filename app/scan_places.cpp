@@ -49,7 +49,7 @@ double distance_to_axis_m(const Alignment& axis, const Eigen::Vector2d& place) {
 
 Findings scans_beside_axis(const JobState& state) {
   Findings findings;
-  if (!state.alignment) return findings;
+  if (!state.alignment || !state.results.registration.in_site) return findings;
   const auto& scans = state.results.registration.scans;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!scans[i].placed) continue;

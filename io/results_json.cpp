@@ -73,10 +73,14 @@ json registration_json(const Results& results) {
          {"balance", {{"along", pair.balance.x()}, {"across", pair.balance.y()}, {"up", pair.balance.z()}}},
          {"agreeing", pair.agreeing},
          {"seen_through", pair.seen_through},
+         {"scale_per_mille", 1e3 * (pair.scale - 1.0)},
+         {"scale_sigma_per_mille", pair.scale_sigma > 0.0 ? json(1e3 * pair.scale_sigma) : json(nullptr)},
          {"iterations", pair.iterations},
          {"sigma_mm", sigma_mm(pair.sigma)},
          {"undetermined", pair.undetermined},
-         {"used", pair.used}});
+         {"alike_m", pair.alike_m == 0.0 ? json(nullptr) : json(pair.alike_m)},
+         {"used", pair.used},
+         {"why_not", pair.why_not}});
   out["loops"] = json::array();
   for (const LoopClosure& loop : registration.loops)
     out["loops"].push_back({{"scans", loop.scans},
@@ -92,7 +96,9 @@ json registration_json(const Results& results) {
                               {"redundancy", c.used ? json(c.redundancy) : json(nullptr)},
                               {"normalised", c.used ? json(c.normalised) : json(nullptr)},
                               {"used", c.used}});
-  out["datum_sigma_mm"] = 1e3 * registration.datum_sigma_m;
+  out["in_site"] = registration.in_site;
+  out["datum_scan"] = registration.datum_scan.empty() ? json(nullptr) : json(registration.datum_scan);
+  out["datum_sigma_mm"] = registration.in_site ? json(1e3 * registration.datum_sigma_m) : json(nullptr);
   out["sigma_factor"] = registration.sigma_factor;
   out["control_rms_mm"] = 1e3 * registration.control_rms_m;
   return out;

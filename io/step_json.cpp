@@ -42,13 +42,13 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImportedScan, name, offset, points, no_return
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImportResult, inputs, scans, origin, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PoseSigma, along_m, across_m, up_m, roll_rad, pitch_rad, yaw_rad)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairResult, source, target, target_from_source, overlap, rms_m, median_m,
-                                   median_distance_m, within_6mm, balance, agreeing, seen_through, iterations, sigma,
-                                   undetermined, used, information)
+                                   median_distance_m, within_6mm, balance, agreeing, seen_through, scale, scale_sigma,
+                                   iterations, sigma, undetermined, alike_m, used, why_not, information)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopClosure, scans, before_m, before_rad, after_m, after_rad)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlacedScan, name, placed, local_from_scan, sigma, placed_by, undetermined)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlResidual, scan, id, residual_m, used, redundancy, normalised)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RegistrationResult, accepted, scans, pairs, loops, control, control_rms_m,
-                                   sigma_factor, datum_sigma_m, findings)
+                                   sigma_factor, datum_sigma_m, datum_scan, in_site, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeAmounts, design_m3, excavated_m3, overbreak_m3, underbreak_m3)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Volume, line, line_offset_m, from_m, to_m, slices, average_end_area, prismoidal,
                                    sigma_excavated_m3, sigma_overbreak_m3, sigma_underbreak_m3, coverage, measured_m2,

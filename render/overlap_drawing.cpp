@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/colour_map.h"
+#include "render/map_signs.h"
 #include "render/number_text.h"
 
 namespace adit::render {
@@ -88,11 +88,7 @@ void draw_overlap(Canvas& canvas, const Rect& rect, const PairSection& shown) {
     const Eigen::Vector2d size = box.sizes().cwiseMax(0.5);
     const double scale = 0.95 * std::min(whole.width / size.x(), whole.height / size.y());
     draw_points(canvas, {whole, box.center(), scale}, section, 0.12);
-    const double bar_m = round_down(0.3 * whole.width / scale);
-    canvas.line({whole.left + 1.0, whole.bottom() - 1.2}, {whole.left + 1.0 + bar_m * scale, whole.bottom() - 1.2},
-                {colours::black, 0.35, {}});
-    canvas.text({whole.left + 1.8 + bar_m * scale, whole.bottom() - 1.2}, fixed(bar_m, bar_m < 1.0 ? 1 : 0) + " m",
-                {.size_mm = 1.9, .down = Down::middle});
+    draw_scale_bar(canvas, {whole.left + 1.0, whole.bottom() - 1.0}, scale, 0.3 * whole.width, 1.9);
     for (int i = 0; i < 2; ++i) {
       const Eigen::Vector2d place =
           meeting_place(section, i == 0 ? Eigen::Vector2d::UnitY() : Eigen::Vector2d::UnitX());

@@ -142,6 +142,12 @@ void draw_axis(Canvas& canvas, LabelRoom& room, const PlotArea& area, const Plan
   }
 }
 
+void draw_ties(Canvas& canvas, const PlotArea& area, const Turn& turn, const std::vector<PlanTie>& ties) {
+  for (const PlanTie& tie : ties)
+    canvas.line(area.at(turn.turned(tie.from)), area.at(turn.turned(tie.to)),
+                tie.is_whole ? Pen{colours::grey, 0.3, {}} : Pen{colours::red, 0.3, {1.0, 0.8}});
+}
+
 void draw_places(Canvas& canvas, LabelRoom& room, const PlotArea& area, const Turn& turn,
                  const std::vector<PlanPlace>& places, bool station) {
   for (const PlanPlace& place : places) {
@@ -176,6 +182,7 @@ void draw_plan(Canvas& canvas, const Rect& rect, const Plan& plan) {
   for (const PlanAxisPoint& p : plan.axis) room.block(area.at(turn.turned(p.position)), 0.8);
   canvas.save();
   canvas.clip(rect);
+  draw_ties(canvas, area, turn, plan.ties);
   draw_places(canvas, room, area, turn, plan.stations, true);
   draw_places(canvas, room, area, turn, plan.control, false);
   draw_axis(canvas, room, area, plan, turn);

@@ -1,5 +1,5 @@
 #pragma once
-// A plan: the axis with chainages, stations and control points, chainage to the right.
+// A plan: the axis with chainages, stations, control points and pairs, chainage to the right.
 
 #include <Eigen/Core>
 
@@ -22,10 +22,18 @@ struct PlanAxisPoint {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
 };
 
+/// Two stations that a pair of scans ties together, site frame [m].
+struct PlanTie {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+  bool is_whole = true;  ///< in every direction
+};
+
 struct Plan {
   std::vector<PlanAxisPoint> axis;
   std::vector<PlanPlace> stations;
   std::vector<PlanPlace> control;
+  std::vector<PlanTie> ties;
 };
 
 /// Turned so that the axis (or, without one, the stations) runs to the right, with crosses of the site grid, a north

@@ -5,8 +5,7 @@
 
 #include "core/geometry/statistics.h"
 #include "render/canvas.h"
-#include "render/colour_map.h"
-#include "render/number_text.h"
+#include "render/map_signs.h"
 
 namespace adit::render {
 namespace {
@@ -52,12 +51,8 @@ Picture probability_picture(const ProbabilityImage& image, const std::string& wo
   const double paper = std::max(width, least_width_mm);
   Canvas canvas = Canvas::raster(paper, height + beneath_mm, 25.4 / pixel_mm);
   canvas.picture(pixels_of(image), {0.0, 0.0, width, height}, false);
-  const double bar_m = round_down(0.25 * paper * image.pixel_m / pixel_mm);
-  const double bar_mm = bar_m / image.pixel_m * pixel_mm;
-  const double y = height + 3.0;
-  canvas.line({2.0, y}, {2.0 + bar_mm, y}, {colours::black, 0.5, {}});
-  canvas.text({4.0 + bar_mm, y}, fixed(bar_m, bar_m < 1.0 ? 1 : 0) + " m", {.size_mm = 2.6, .down = Down::middle});
-  canvas.text({2.0, y + 2.0}, words, {.size_mm = 2.4, .shorten_mm = paper - 4.0});
+  draw_scale_bar(canvas, {2.0, height + 4.8}, pixel_mm / image.pixel_m, 0.25 * paper, 2.6);
+  canvas.text({2.0, height + 5.4}, words, {.size_mm = 2.4, .shorten_mm = paper - 4.0});
   return canvas.finish_picture();
 }
 

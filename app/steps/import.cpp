@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cstdio>
 #include <exception>
 #include <future>
@@ -13,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/file_name.h"
 #include "app/step.h"
 #include "core/foundation/error.h"
 #include "core/geometry/point_cloud.h"
@@ -23,10 +23,8 @@ namespace adit::app {
 namespace {
 
 std::filesystem::path store_file(const JobState& state, std::size_t scan) {
-  std::string name = state.job.scans[scan].name;
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '_';
-  return state.out / "import" / (std::to_string(scan + 1) + "-" + name.substr(0, 60) + ".points");
+  return state.out / "import" /
+         (std::to_string(scan + 1) + "-" + in_file_name(state.job.scans[scan].name, 60) + ".points");
 }
 
 std::string depends_on(const JobState& state) {

@@ -19,7 +19,7 @@ bool wanted(const JobState&) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "register 6|" + state.keys.at("import");
+  std::string text = "register 7|" + state.keys.at("import");
   for (const JobScan& scan : state.job.scans) {
     if (!scan.position) continue;
     for (const double value : {scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,
@@ -110,11 +110,19 @@ Findings scans_with_the_same_points(const RegistrationResult& registration) {
   return findings;
 }
 
+/// Scans that nothing ties to the site are not compared with the design, and their coordinates are the datum scan's.
+void stand_in_site_or_alone(JobState& state) {
+  if (state.results.registration.in_site) return;
+  state.design.reset();
+  state.results.import.origin = {};
+}
+
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   check_targets_in_scans(state);
   std::vector<ScanToPlace> scans;
   for (std::size_t i = 0; i < state.stores.size(); ++i) scans.push_back(scan_to_place(state, i));
   state.results.registration = register_scans(scans, context_of(state), state.job.options.registration, progress);
+  stand_in_site_or_alone(state);
   for (Finding& finding : scans_beside_axis(state)) {
     state.results.registration.findings.push_back(std::move(finding));
     state.results.registration.accepted = false;
@@ -129,6 +137,7 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
 
 void take_up(JobState& state, Progress&) {
   io::read_step_text(io::read_text_file(step_file(state, "register")), state.results.registration);
+  stand_in_site_or_alone(state);
 }
 
 }  // namespace

@@ -51,9 +51,7 @@ class CellIndex {
   /// The three cells about a place on one axis.
   struct Reach {
     explicit Reach(double in_cells)
-        : cell(static_cast<std::uint64_t>(static_cast<std::int64_t>(in_cells))),
-          first_block((cell - 1) >> 2U),
-          last_block((cell + 1) >> 2U) {}
+        : cell(cell_number(in_cells)), first_block((cell - 1) >> 2U), last_block((cell + 1) >> 2U) {}
     /// Bits of the four cells of a block that are within reach.
     unsigned within(std::uint64_t block) const {
       const std::uint64_t first = std::max(cell - 1, 4 * block) & 3U;

@@ -10,7 +10,6 @@ namespace adit {
 namespace {
 
 constexpr std::size_t block_points = 131072;  // fixed, so that sums do not depend on the threads
-constexpr std::size_t tiles_at_once = 1;      // fixed as well
 constexpr double points_a_cell = 64.0;
 
 /// Whole numbers of a cell, packed: cheaper than the curve's key for every point.
@@ -19,8 +18,7 @@ std::uint64_t packed_cell(const Eigen::Vector3d& x, double cell_m) {
   if (!is_numbered(cells))
     throw Error("a point lies too far from the scanner for cells of " + std::to_string(cell_m) + " m", "",
                 "remove stray points or use larger cells");
-  const auto whole = [&](int axis) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(cells[axis])); };
-  return whole(0) | whole(1) << 21U | whole(2) << 42U;
+  return cell_number(cells.x()) | cell_number(cells.y()) << 21U | cell_number(cells.z()) << 42U;
 }
 
 std::uint64_t key_of_packed(std::uint64_t cell) {
@@ -148,23 +146,21 @@ std::vector<CellSums> cell_sums(std::span<const Eigen::Vector3f> points, double 
 std::vector<CellSums> cell_sums(const TileSource& source, double cell_m, double least_range_m, double most_range_m,
                                 Progress& progress) {
   const std::size_t tiles = source.tile_count();
-  std::vector<std::vector<CellSums>> groups((tiles + tiles_at_once - 1) / tiles_at_once);
+  std::vector<std::vector<CellSums>> parts(tiles);
   parallel_for_each_index(
-      groups.size(),
-      [&](std::size_t g) {
+      tiles,
+      [&](std::size_t t) {
+        progress.step(t, tiles);
         BlockSums sums;
-        for (std::size_t t = g * tiles_at_once; t < std::min(tiles, (g + 1) * tiles_at_once); ++t) {
-          progress.step(t, tiles);
-          for (const auto& p : source.positions(t, enough_points(source.box(t), cell_m))) {
-            const Eigen::Vector3d x = p.cast<double>();
-            const double range = x.norm();
-            if (range >= least_range_m && range <= most_range_m) sums.add(x, cell_m);
-          }
+        for (const auto& p : source.positions(t, enough_points(source.box(t), cell_m))) {
+          const Eigen::Vector3d x = p.cast<double>();
+          const double range = x.norm();
+          if (range >= least_range_m && range <= most_range_m) sums.add(x, cell_m);
         }
-        groups[g] = sums.in_order();
+        parts[t] = sums.in_order();
       },
       1);
-  return merged(std::move(groups));
+  return merged(std::move(parts));
 }
 
 std::vector<CellSums> with_double_cells(std::vector<CellSums> sums) {

@@ -31,11 +31,15 @@ struct ControlResidual {
   Eigen::Vector3d residual_m = Eigen::Vector3d::Zero();
   bool used = true;  ///< false when the adjustment found it wrong and left it out
   /// How much of an error of this target the others would show, mean of the three axes (Baarda 1968): 0 nothing checks
-  /// it, 1 the rest knows its place without it. And the greatest residual of an axis in the sigmas that residuals
-  /// there have. Both 0 for targets that are not used.
+  /// it, 1 the rest knows its place without it. And the residual in the sigmas that residuals there
+  /// have: the greatest of its axes, or eight ninths of its length, whichever is more. Both 0 for targets that are not
+  /// used.
   double redundancy = 0.0;
   double normalised = 0.0;
 };
+
+/// A normalised residual beyond this is a blunder: by chance one in 5,000 of axes, and one in 7,000 of lengths.
+inline constexpr double wrong_normalised = 4.0;
 
 /// Rigid transform (least squares, Arun et al. 1987 / Umeyama without scale) target_from_source over pairs of points.
 /// Empty with fewer than three points or when they lie on one line (1 cm).

@@ -14,7 +14,7 @@ constexpr std::size_t least_control_points = 3;
 
 bool consistent(const PoseGraphResult& solved, double control_sigma_m) {
   const auto wrong_residual = [&](const Eigen::Vector3d& r) {
-    return r.cwiseAbs().maxCoeff() > wrong_control_sigmas * control_sigma_m;
+    return r.norm() > wrong_control_sigmas * control_sigma_m;
   };
   return std::none_of(solved.pair_misfit.begin(), solved.pair_misfit.end(),
                       [](double misfit) { return misfit >= wrong_pair_misfit; }) &&
@@ -56,7 +56,8 @@ bool enough_control(const PoseGraph& graph, const Adjustment& adjustment) {
 
 struct Trial {
   Suspect suspect;
-  double cost = 0.0;  ///< what stays unexplained without the suspect, and what it costs to leave it out
+  std::vector<Pose> local_from_scan;  ///< without it
+  double cost = 0.0;                  ///< what stays unexplained without the suspect, and what it costs to leave it out
   bool ends_it = false;
   bool permitted = false;
 };
@@ -70,11 +71,26 @@ std::vector<Trial> trials(const PoseGraph& graph, const Adjustment& adjustment, 
     part.with_covariance = false;
     const PoseGraphResult solved = solve_pose_graph(part, progress);
     const auto observations = static_cast<double>(suspect.pairs.size() + suspect.control.size());
-    tried.push_back({suspect, solved.cost + observation_cost * observations, consistent(solved, graph.control_sigma_m),
-                     enough_control(graph, without)});
+    tried.push_back({suspect, solved.local_from_scan, solved.cost + observation_cost * observations,
+                     consistent(solved, graph.control_sigma_m), enough_control(graph, without)});
   }
   std::stable_sort(tried.begin(), tried.end(), [](const Trial& a, const Trial& b) { return a.cost < b.cost; });
   return tried;
+}
+
+/// How far a suspect lies from where the adjustment without it puts it.
+double off_from(const Trial& trial, const PoseGraph& graph) {
+  double off_m = 0.0;
+  for (const std::size_t k : trial.suspect.pairs) {
+    const GraphPair& pair = graph.pairs[k];
+    const Pose others = trial.local_from_scan[pair.target].inverse() * trial.local_from_scan[pair.source];
+    off_m = std::max(off_m, distance_between_m(others, pair.target_from_source));
+  }
+  for (const std::size_t k : trial.suspect.control) {
+    const GraphControl& c = graph.control[k];
+    off_m = std::max(off_m, (trial.local_from_scan[c.node] * c.in_scan - c.in_local).norm());
+  }
+  return off_m;
 }
 
 /// True when leaving out b leaves out a, too: then b explains nothing that a does not.
@@ -98,6 +114,7 @@ bool settle_one(const PoseGraph& graph, Adjustment& adjustment, Progress& progre
       contradiction.suspects.push_back(other.suspect);
   }
   contradiction.left_out = best.permitted && contradiction.suspects.size() == 1;
+  contradiction.off_m = off_from(best, graph);
   if (contradiction.left_out) leave_out(adjustment, best.suspect);
   adjustment.contradictions.push_back(contradiction);
   return contradiction.left_out;

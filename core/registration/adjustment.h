@@ -8,7 +8,7 @@
 
 namespace adit {
 
-/// A component of a target's residual beyond this many sigmas of control is wrong.
+/// A target whose residual is longer than this many sigmas of control is wrong.
 inline constexpr double wrong_control_sigmas = 5.0;
 
 /// Observations that may be wrong together, as indices into the graph.
@@ -28,6 +28,7 @@ struct Suspect {
 struct Contradiction {
   std::vector<Suspect> suspects;  ///< one when left out; else all whose absence would end the contradiction
   bool left_out = false;          ///< false: the others cannot tell which suspect is wrong, so all stay in
+  double off_m = 0.0;             ///< what was left out, from where the others put it: the farthest of it
 };
 
 struct Adjustment {

@@ -1,6 +1,8 @@
 #include "core/registration/found_place.h"
 
 #include "core/foundation/angle.h"
+#include "core/registration/alike_along.h"
+#include "core/registration/pair_refinement.h"
 #include "core/registration/pair_search.h"
 #include "core/registration/register_pair.h"
 
@@ -34,6 +36,10 @@ PairFound found_place(const PreparedScan& target, const PreparedScan& source, co
       return found;
   found.target_from_source =
       refined(target, source, found.target_from_source, {}, tunnel_axes(target.axis), options, progress);
+  const LikestPlace likest = likest_along(target, source, found.target_from_source, found.target_from_source,
+                                          {target.axis, found.target_from_source, found_reach_m}, options, progress);
+  if (likest.alike_m != 0.0) return found;
+  found.target_from_source = likest.target_from_source;
   const PairInformation known =
       pair_information(target, source, found.target_from_source, target.axis, options, progress);
   found.outcome = known.undetermined == HeldDirections{} ? SearchOutcome::placed : SearchOutcome::undetermined;

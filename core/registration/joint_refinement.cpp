@@ -4,12 +4,12 @@
 
 #include "core/foundation/parallel.h"
 #include "core/registration/observability.h"
-#include "core/registration/register_pair.h"
+#include "core/registration/pair_refinement.h"
 
 namespace adit {
 namespace {
 
-constexpr int most_turns = 10;
+constexpr int most_turns = 3;
 constexpr double still_m = 1e-5;
 
 HeldDirections held_directions(const std::vector<std::string>& undetermined) {
@@ -33,13 +33,18 @@ JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustm
                                Progress& progress) {
   JointRefinement joint{used_part(graph, adjustment), adjustment.solved};
   std::vector<HeldDirections> held;
-  for (const PairResult& pair : pairs)
-    if (pair.used) held.push_back(held_directions(pair.undetermined));
+  std::vector<bool> alike;
+  for (const PairResult& pair : pairs) {
+    if (!pair.used) continue;
+    held.push_back(held_directions(pair.undetermined));
+    alike.push_back(pair.alike_m != 0.0);
+  }
   for (int turn = 0; turn < most_turns; ++turn) {
     progress.step(static_cast<std::size_t>(turn), most_turns);
     parallel_for_each_index(
         joint.graph.pairs.size(),
         [&](std::size_t k) {
+          if (alike[k]) return;
           GraphPair& pair = joint.graph.pairs[k];
           const Node& target = nodes[pair.target];
           const Pose now =

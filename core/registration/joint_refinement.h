@@ -13,7 +13,8 @@ struct JointRefinement {
 
 /// Gauss-Newton steps over the surfaces of all pairs together: each pair gives the step its surfaces ask for at the
 /// present poses, the graph weighs all of them with control, and so again until no scan moves by a hundredth of a
-/// millimetre (ten times at most). Directions that a pair does not determine are left as they are.
+/// millimetre (three times at most). Directions that a pair does not determine are left as they are, and pairs that
+/// fit as well elsewhere keep their transform: the adjustment stands where they do not meet.
 JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustment, const std::vector<Node>& nodes,
                                const std::vector<PairResult>& pairs, const RegistrationContext& context,
                                Progress& progress);

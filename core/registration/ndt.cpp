@@ -13,10 +13,11 @@ namespace adit {
 namespace {
 
 /// Steps that matter in cells of this size; those of the last decide about tenths of a millimetre.
-NewtonOptions newton_options(double cell_m, bool last, int most_iterations) {
+NewtonOptions newton_options(double cell_m, bool last, const NdtOptions& options) {
   constexpr double share = 0.01;
   NewtonOptions newton;
-  newton.most_iterations = most_iterations;
+  newton.most_iterations = options.most_iterations;
+  newton.held_direction = options.held_direction;
   newton.longest_step_m = 0.5 * cell_m;
   newton.least_step_m = last ? 1e-5 : share * cell_m;
   return newton;
@@ -75,8 +76,7 @@ NdtAlignment ndt_align(const DistributionPyramid& target, const DistributionPyra
                               : source.levels[source.level_near(0.5 * cells.cell_m())].distributions();
     const auto score = [&](const Pose& at) { return ndt_score(cells, sources, at, options.score, progress); };
     const auto descended = [&](const Pose& start) {
-      NewtonResult found =
-          descend(start, score, newton_options(cells.cell_m(), level == finest, options.most_iterations));
+      NewtonResult found = descend(start, score, newton_options(cells.cell_m(), level == finest, options));
       result.iterations += found.iterations;
       return found;
     };

@@ -1,6 +1,8 @@
 #pragma once
 // The normal distributions transform's choices.
 
+#include <Eigen/Core>
+
 namespace adit {
 
 /// What of the source is laid on the target's distributions.
@@ -30,6 +32,8 @@ struct NdtOptions {
   /// Rounds of blasting repeat every few metres, and so does the rock they leave. Starts so far along the direction
   /// that the coarsest cells know least are tried too, both ways; 0: none.
   double search_m = 4.0;
+  /// Unit direction (target's frame) along which the pose is not moved; zero: it is moved in all.
+  Eigen::Vector3d held_direction = Eigen::Vector3d::Zero();
   NdtSources sources = NdtSources::distributions;
   NdtScoreOptions score;
   int most_iterations = 30;  ///< of each size of cells

@@ -11,8 +11,9 @@ namespace adit {
 struct NewtonOptions {
   int most_iterations = 30;
   double longest_step_m = 1.0;
-  double lever_m = 5.0;        ///< a turn by a radian is worth a shift by so many metres
-  double least_step_m = 1e-4;  ///< shorter steps (and turns worth as much) end the search
+  double lever_m = 5.0;                                      ///< a turn by a radian is worth a shift by so many metres
+  Eigen::Vector3d held_direction = Eigen::Vector3d::Zero();  ///< unit, not moved along; zero: none
+  double least_step_m = 1e-4;                                ///< shorter steps (and turns worth as much) end the search
 };
 
 struct NewtonResult {

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/foundation/parallel.h"
+
 namespace adit {
 namespace {
 
 constexpr std::size_t directions = 6;
+constexpr double unknown_m = 10.0;  // variances of 100 m2 tell nothing and keep the inverse well conditioned
 
 /// Symmetric matrix with eigenvalues no smaller than floor.
 Eigen::MatrixXd floored(const Eigen::MatrixXd& matrix, double floor) {
@@ -67,31 +70,78 @@ Eigen::MatrixXd covariance_of(const Known& known, const std::vector<Eigen::Index
   const Eigen::MatrixXd signal =
       floored(known.robust_share * hessian - known.noise(free, free), 1e-9 * hessian.trace());
   const Eigen::MatrixXd inverse = signal.inverse();
+  std::vector<Eigen::MatrixXd> by_size(known.cubes.size());
+  const auto measure = [&](std::size_t i) {
+    by_size[i] = inverse * gradient_covariance(known.cubes[i], signal, known.robust_share, free) * inverse;
+  };
+  parallel_for_each_index(by_size.size(), measure, 1);
   Eigen::MatrixXd worst = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
-  for (const std::vector<CubeSums>& cubes : known.cubes) {
-    const Eigen::MatrixXd covariance = inverse * gradient_covariance(cubes, signal, known.robust_share, free) * inverse;
+  for (const Eigen::MatrixXd& covariance : by_size) {
+    // One cube that holds all there is of a direction leaves nothing to measure its error by.
+    if (!covariance.allFinite())
+      return unknown_m * unknown_m * Eigen::MatrixXd::Identity(hessian.rows(), hessian.rows());
     if (covariance.trace() > worst.trace()) worst = covariance;
   }
   return worst;
 }
 
+/// What the matches say, in metres of the columns.
+Known known_of(std::span<const SurfaceMatch> matches, double tukey_m, const Matrix6d& columns) {
+  // However alike the normals of both sides are, none is better known than this: a wall without any noise would
+  // otherwise be known along itself.
+  constexpr double least_normal_error = 1e-3;
+  constexpr std::size_t enough_cubes = 24;  // of fewer, in small rooms, no spread can be told
+  constexpr std::array<double, 3> sizes_m{1.0, 2.0, 4.0};
+  const NormalEquations equations = normal_equations(matches, tukey_m);
+  const auto in_metres = [&](const Matrix6d& matrix) { return Matrix6d(columns.transpose() * matrix * columns); };
+  Known known{
+      in_metres(equations.hessian),
+      in_metres(equations.noise) + least_normal_error * least_normal_error * equations.weight * Matrix6d::Identity(),
+      std::vector<std::vector<CubeSums>>(sizes_m.size()),
+      std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.3, 1.0)};
+  const auto sum_up = [&](std::size_t i) {
+    known.cubes[i] = sums_by_cubes(matches, tukey_m, sizes_m[i]);
+    for (CubeSums& cube : known.cubes[i]) {
+      cube.hessian = in_metres(cube.hessian);
+      cube.gradient = columns.transpose() * cube.gradient;
+    }
+  };
+  parallel_for_each_index(sizes_m.size(), sum_up, 1);
+  while (known.cubes.size() > 1 && known.cubes.back().size() < enough_cubes) known.cubes.pop_back();
+  return known;
+}
+
 /// A metre in one free direction, the other free ones following, and how much more than the limit allows is unknown.
 struct Weakness {
+  std::size_t which = 0;  ///< of the free directions
   Vector6d direction = Vector6d::Zero();
   double ratio = 0.0;  ///< over 1: undetermined
 };
 
-Weakness weakness_of(const Known& known, const std::vector<Eigen::Index>& free, Eigen::Index n, double sigma_m,
+Weakness weakness_of(const Known& known, const std::vector<Eigen::Index>& free, std::size_t which, double sigma_m,
                      double limit_m) {
+  const auto n = static_cast<Eigen::Index>(which);
   const Eigen::MatrixXd hessian = known.hessian(free, free);
   const auto size = hessian.rows();
   const Eigen::MatrixXd regular = hessian + 1e-9 * (hessian.trace() + 1e-9) * Eigen::MatrixXd::Identity(size, size);
   const Eigen::VectorXd column = regular.ldlt().solve(Eigen::VectorXd::Unit(size, n));
   Weakness weakness;
+  weakness.which = which;
   weakness.direction(free) = column / column[n];
   const double noise = weakness.direction.dot(known.noise * weakness.direction);
   weakness.ratio = std::max(sigma_m / limit_m, 3.0 * noise * column[n]);
   return weakness;
+}
+
+Weakness weakest_of(const Known& known, const std::vector<Eigen::Index>& free, const Eigen::MatrixXd& covariance,
+                    double limit_m) {
+  Weakness weakest;
+  for (std::size_t n = 0; n < free.size(); ++n) {
+    const auto at = static_cast<Eigen::Index>(n);
+    const Weakness weakness = weakness_of(known, free, n, std::sqrt(std::max(covariance(at, at), 0.0)), limit_m);
+    if (weakness.ratio > weakest.ratio) weakest = weakness;
+  }
+  return weakest;
 }
 
 double& sigma_of(PoseSigma& sigma, std::size_t direction) {
@@ -144,59 +194,32 @@ Vector6d step_without(const NormalEquations& equations, const HeldDirections& he
 PairInformation judge_observability(std::span<const SurfaceMatch> matches, double tukey_m,
                                     const Eigen::Matrix3d& axes_in_target, const ObservabilityLimits& limits,
                                     const HeldDirections& held) {
-  const NormalEquations equations = normal_equations(matches, tukey_m);
   const double lever_m = radius_of_gyration(matches);
   const Matrix6d columns = metres_in(axes_in_target, lever_m);
-  const auto in_metres = [&](const Matrix6d& matrix) { return Matrix6d(columns.transpose() * matrix * columns); };
-  Known known{in_metres(equations.hessian),
-              in_metres(equations.noise),
-              {},
-              std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.3, 1.0)};
-  for (const double cube_m : {1.0, 2.0, 4.0}) {
-    constexpr std::size_t enough_cubes = 24;  // of fewer, in small rooms, no spread can be told
-    std::vector<CubeSums> cubes = sums_by_cubes(matches, tukey_m, cube_m);
-    if (!known.cubes.empty() && cubes.size() < enough_cubes) break;
-    known.cubes.push_back(std::move(cubes));
-    for (CubeSums& cube : known.cubes.back()) {
-      cube.hessian = in_metres(cube.hessian);
-      cube.gradient = columns.transpose() * cube.gradient;
-    }
-  }
+  const Known known = known_of(matches, tukey_m, columns);
   PairInformation result;
-  constexpr std::size_t least_matches = 50;  // of fewer, nothing can be measured
   result.undetermined = held;
   if (matches.size() < least_matches) result.undetermined.fill(true);
   std::vector<Eigen::Index> free = free_of(result.undetermined);
-  constexpr double unknown_m = 10.0;  // variances of 100 m2 tell nothing and keep the inverse well conditioned
   Matrix6d covariance = Matrix6d::Zero();
   Vector6d sigma_m = Vector6d::Constant(unknown_m);
   const double least_variance = std::max(1e-14, limits.least_sigma_m * limits.least_sigma_m);
-  for (std::size_t i = 0; i < directions; ++i)
-    if (result.undetermined[i])
-      covariance += unknown_m * unknown_m * Vector6d::Unit(static_cast<Eigen::Index>(i)) *
-                    Vector6d::Unit(static_cast<Eigen::Index>(i)).transpose();
+  for (std::size_t i = 0; i < directions; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (result.undetermined[i]) covariance(at, at) += unknown_m * unknown_m;
+  }
   while (!free.empty()) {
     Eigen::MatrixXd of_free = covariance_of(known, free);
     of_free.diagonal().array() += least_variance;
-    Weakness weakest;
-    std::size_t which = 0;
-    for (std::size_t n = 0; n < free.size(); ++n) {
-      const auto at = static_cast<Eigen::Index>(n);
-      const Weakness weakness =
-          weakness_of(known, free, at, std::sqrt(std::max(of_free(at, at), 0.0)), limits.undetermined_sigma_m);
-      if (weakness.ratio > weakest.ratio) {
-        weakest = weakness;
-        which = n;
-      }
-    }
+    const Weakness weakest = weakest_of(known, free, of_free, limits.undetermined_sigma_m);
     if (weakest.ratio <= 1.0) {
       covariance(free, free) += of_free;
       sigma_m(free) = of_free.diagonal().cwiseMax(0.0).cwiseSqrt();
       break;
     }
-    result.undetermined[static_cast<std::size_t>(free[which])] = true;
+    result.undetermined[static_cast<std::size_t>(free[weakest.which])] = true;
     covariance += unknown_m * unknown_m * weakest.direction * weakest.direction.transpose();
-    free.erase(free.begin() + static_cast<std::ptrdiff_t>(which));
+    free.erase(free.begin() + static_cast<std::ptrdiff_t>(weakest.which));
   }
   for (std::size_t i = 0; i < directions; ++i)
     sigma_of(result.sigma, i) = sigma_m[static_cast<Eigen::Index>(i)] / (i < 3 ? 1.0 : lever_m);

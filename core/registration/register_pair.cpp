@@ -1,72 +1,55 @@
 #include "core/registration/register_pair.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
+#include <functional>
 
 #include "core/foundation/angle.h"
 #include "core/foundation/parallel.h"
-#include "core/geometry/pose_step.h"
 #include "core/geometry/statistics.h"
+#include "core/registration/alike_along.h"
 #include "core/registration/fit_check.h"
-#include "core/registration/icp.h"
 #include "core/registration/ndt.h"
+#include "core/registration/pair_refinement.h"
+#include "core/registration/scale_check.h"
 
 namespace adit {
 namespace {
 
-/// Of an even part of the matches: enough for their spread.
-std::vector<double> residuals_of(std::span<const SurfaceMatch> matches) {
-  constexpr std::size_t enough = 8192;
-  const std::size_t step = matches.size() / enough + 1;
-  std::vector<double> residuals;
-  for (std::size_t i = 0; i < matches.size(); i += step) residuals.push_back(matches[i].residual_m);
-  return residuals;
+constexpr std::size_t along = 0;  // in direction_names
+
+NdtOptions ndt_options(const PreparedScan& target, const PreparedScan& source, const RegistrationOptions& options) {
+  NdtOptions ndt;
+  ndt.coarsest_cell_m = options.cell_m;
+  ndt.finest_cell_m = std::max(ndt.finest_cell_m, 8.0 * piece_of(target, source));
+  ndt.sources = options.ndt_sources;
+  return ndt;
 }
 
-/// Reach of Tukey's weights, for the noise found in the overlap. A wider one (4.685 sigma) would use clean noise a
-/// little better, but where a scanner bends the walls, as real ones do, it averages what does not belong together: on
-/// the real corridor the pairs then leave a loop 0.16 m open instead of 0.03 m.
-double tukey_reach_m(std::span<const SurfaceMatch> matches, double cell_m) {
-  return std::clamp(2.0 * robust_sigma(residuals_of(matches)), 0.05 * cell_m, cell_m);
-}
-
-constexpr std::size_t least_matches = 50;
-
-/// Both scans are to hold enough points in a piece.
-double piece_of(const PreparedScan& target, const PreparedScan& source) {
-  return std::max(target.piece_m, source.piece_m);
-}
-
-/// least_reach_m: of Tukey's weights, however little the noise.
-std::optional<Vector6d> step_of(const SurfaceMap& target, const SurfaceMap& source, const Pose& pose,
-                                const HeldDirections& held, const Eigen::Matrix3d& axes, double least_reach_m,
-                                Progress& progress) {
-  const std::vector<SurfaceMatch> matches = surface_matches(target, source.pieces(), pose, progress);
-  if (matches.size() < least_matches) return std::nullopt;
-  const double reach_m = std::max(least_reach_m, tukey_reach_m(matches, target.cell_m()));
-  const NormalEquations equations = normal_equations(matches, reach_m);
-  // Far matches pull less the farther they are: the cost bends less than the weights say, and the steps would be short.
-  const double bend = std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.4, 1.0);
-  return Vector6d(step_without(equations, held, axes) / bend);
-}
-
-/// The reach is first_reach_m, then half of it, and so on down to what the noise asks for: walls that fit already would
-/// otherwise shut out a floor that does not yet.
-Pose stepped_to_rest(const SurfaceMap& target, const SurfaceMap& source, Pose pose, const HeldDirections& held,
-                     const Eigen::Matrix3d& axes, double first_reach_m, double least_step_m, Progress& progress) {
-  constexpr int most_steps = 15;
-  constexpr double lever_m = 5.0;
-  constexpr double least_reach_m = 0.005;
-  constexpr double reach_falls = 0.3;
-  double reach_m = first_reach_m;
-  for (int i = 0; i < most_steps; ++i, reach_m *= reach_falls) {
-    const auto step = step_of(target, source, pose, held, axes, reach_m, progress);
-    if (!step) break;
-    pose = stepped(pose, *step);
-    if (reach_m < least_reach_m && step->tail<3>().norm() + lever_m * step->head<3>().norm() < least_step_m) break;
+/// By the normal distributions transform, then the surfaces; once more with a search along the tunnel where what is
+/// found does not agree: another round of blasting, perhaps.
+NdtAlignment aligned_at(const PreparedScan& target, const PreparedScan& source, const Pose& guess,
+                        const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress) {
+  NdtOptions ndt = ndt_options(target, source, options);
+  NdtAlignment alignment;
+  for (const double search_m : {0.0, ndt.search_m}) {
+    ndt.search_m = search_m;
+    const NdtAlignment found = ndt_align(target.pyramid, source.pyramid, guess, ndt, progress);
+    alignment.target_from_source = refined(target, source, found.target_from_source, {}, axes, options, progress);
+    alignment.iterations += found.iterations;
+    if (check_fit(target, source, alignment.target_from_source).agrees()) break;
   }
-  return pose;
+  return alignment;
+}
+
+/// The same with the guess kept along the tunnel: where little tells, the transform drifts to where scans overlap most.
+Pose aligned_across(const PreparedScan& target, const PreparedScan& source, const Pose& guess,
+                    const Eigen::Vector3d& axis, const RegistrationOptions& options, Progress& progress) {
+  NdtOptions ndt = ndt_options(target, source, options);
+  ndt.search_m = 0.0;
+  ndt.held_direction = axis;
+  return ndt_align(target.pyramid, source.pyramid, guess, ndt, progress).target_from_source;
 }
 
 /// A pose, judged by the surfaces that meet there.
@@ -112,6 +95,19 @@ void measure(PairResult& pair, std::span<const SurfaceMatch> matches, const Eige
   pair.balance /= n;
 }
 
+void measure_scale(PairResult& pair, std::span<const SurfaceMatch> matches, double piece_m) {
+  const ScaleCheck check = check_scale(matches, tukey_reach_m(matches, piece_m));
+  pair.scale = check.scale;
+  pair.scale_sigma = check.sigma;
+}
+
+void measure_fit(PairResult& pair, const PreparedScan& target, const PreparedScan& source) {
+  const FitCheck check = check_fit(target, source, pair.target_from_source);
+  pair.agreeing = check.agreeing;
+  pair.seen_through = check.seen_through;
+  pair.overlap = overlap_at(target, source, pair.target_from_source, 0.4);
+}
+
 }  // namespace
 
 double overlap_at(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
@@ -135,29 +131,6 @@ double overlap_at(const PreparedScan& target, const PreparedScan& source, const 
   return static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(1, pieces.size()));
 }
 
-Pose refined(const PreparedScan& target, const PreparedScan& source, Pose pose, const HeldDirections& held,
-             const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress) {
-  const double fine_m = piece_of(target, source);
-  if (options.refinement == Refinement::points) {
-    const IcpTarget points(icp_cloud(target.surface(fine_m)), options.icp);
-    const IcpResult found = icp_align(points, icp_cloud(source.surface(fine_m)), pose, options.icp, progress);
-    return held_at(pose, found.target_from_source, held, axes);
-  }
-  const double coarse_m = 2.0 * fine_m;
-  pose = stepped_to_rest(target.surface(coarse_m), source.surface(coarse_m), pose, held, axes, 0.5 * coarse_m, 2e-4,
-                         progress);
-  return stepped_to_rest(target.surface(fine_m), source.surface(fine_m), pose, held, axes, 0.0, 5e-5, progress);
-}
-
-std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                             const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress) {
-  const double size_m = piece_of(target, source);
-  const auto step =
-      step_of(target.surface(size_m), source.surface(size_m), target_from_source, held, axes, 0.0, progress);
-  if (!step) return std::nullopt;
-  return stepped(target_from_source, *step);
-}
-
 PairInformation pair_information(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                                  const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options,
                                  Progress& progress) {
@@ -171,30 +144,33 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   pair.source = source.name;
   pair.target = target.name;
   const Eigen::Matrix3d axes = tunnel_axes(axis_in_target);
-  Progress transform = progress.part(0.5, "");
-  NdtOptions ndt;
-  ndt.coarsest_cell_m = options.cell_m;
-  ndt.finest_cell_m = std::max(ndt.finest_cell_m, 8.0 * piece_of(target, source));
-  ndt.sources = options.ndt_sources;
-  const double search_m = std::exchange(ndt.search_m, 0.0);
-  Progress last = progress.part(0.5, "");
+  Progress transform = progress.part(0.7, "");
+  Progress last = progress.part(0.3, "");
   Pose pose = guess;
-  const auto align = [&] {
-    const NdtAlignment alignment = ndt_align(target.pyramid, source.pyramid, guess, ndt, transform);
-    pair.iterations += alignment.iterations;
-    return refined(target, source, alignment.target_from_source, {}, axes, options, last);
-  };
   if (start == Start::found) {
-    pose = refined(target, source, guess, {}, axes, options, last);
+    pose = refined(target, source, guess, {}, axes, options, transform);
   } else {
-    pose = align();
-    ndt.search_m = search_m;
-    if (!check_fit(target, source, pose).agrees()) pose = align();  // another round of blasting, perhaps
+    const NdtAlignment alignment = aligned_at(target, source, guess, axes, options, transform);
+    pose = alignment.target_from_source;
+    pair.iterations = alignment.iterations;
+  }
+  if (start != Start::surveyed) {
+    const AlongSearch search{axis_in_target, guess,
+                             start == Start::found ? found_reach_m : 3.0 * options.guess_sigma_m};
+    const bool drifted = std::abs(shift_along_m(guess, pose, axis_in_target)) > search.reach_m;
+    const Pose base = drifted ? aligned_across(target, source, guess, axis_in_target, options, last) : pose;
+    const LikestPlace likest = likest_along(target, source, pose, base, search, options, last);
+    pose = likest.target_from_source;
+    pair.alike_m = likest.alike_m;
   }
   Judged judged = judge(target, source, pose, axes, {}, options, last);
-  const HeldDirections held = judged.known.undetermined;
+  HeldDirections held = judged.known.undetermined;
+  if (held[along]) pair.alike_m = 0.0;  // smooth walls: what is alike there is noise
+  // Where it fits elsewhere as well, it stays where the surfaces meet: the adjustment holds it at the guess.
+  const HeldDirections at_guess = held;
+  held[along] = held[along] || pair.alike_m != 0.0;
   if (held != HeldDirections{}) {
-    pose = refined(target, source, held_at(guess, pose, held, axes), held, axes, options, last);
+    pose = refined(target, source, held_at(guess, pose, at_guess, axes), held, axes, options, last);
     judged = judge(target, source, pose, axes, held, options, last);
   }
   pair.target_from_source = pose;
@@ -202,11 +178,12 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   pair.information = judged.known.information;
   for (std::size_t i = 0; i < held.size(); ++i)
     if (judged.known.undetermined[i]) pair.undetermined.emplace_back(direction_names[i]);
-  measure(pair, judged.matches, axes);
-  pair.overlap = overlap_at(target, source, pose, 0.4);
-  const FitCheck check = check_fit(target, source, pose);
-  pair.agreeing = check.agreeing;
-  pair.seen_through = check.seen_through;
+  const std::array<std::function<void()>, 3> sheet{
+      [&] { measure(pair, judged.matches, axes); },
+      [&] { measure_scale(pair, judged.matches, piece_of(target, source)); },
+      [&] { measure_fit(pair, target, source); }};
+  parallel_for_each_index(
+      sheet.size(), [&](std::size_t i) { sheet[i](); }, 1);
   return pair;
 }
 

@@ -12,17 +12,6 @@ namespace adit {
 double overlap_at(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                   double distance_m);
 
-/// By surfaces: Gauss-Newton steps on those of both scans, first on pieces twice as large, until they are too small to
-/// matter; Tukey's weights of a reach that fits the noise found. By points: iterative closest point on the middles of
-/// the same pieces. Held directions (axes: tunnel_axes in the target's frame) are left alone.
-Pose refined(const PreparedScan& target, const PreparedScan& source, Pose target_from_source,
-             const HeldDirections& held, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
-             Progress& progress);
-
-/// One step by surfaces, on the smaller pieces; nothing where too few of them meet.
-std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                             const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress);
-
 /// What the surfaces of a pair say about its pose there.
 PairInformation pair_information(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                                  const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options,
@@ -30,8 +19,13 @@ PairInformation pair_information(const PreparedScan& target, const PreparedScan&
 
 /// Normal distributions transform from coarse cells to fine ones, then iterative closest point between the surfaces.
 /// axis_in_target: unit direction of the tunnel in the target's frame. Directions that the clouds do not determine are
-/// put back to the guess and named. A start that a search has found (centimetres off) is refined only.
-enum class Start { guess, found };
+/// put back to the guess and named. So is "along" where the pair fits as well elsewhere near (alike_along.h): within
+/// three sigmas of a guess, ten metres of a place that was found.
+enum class Start {
+  guess,    ///< as good as the options say
+  found,    ///< by a search, centimetres off: is refined only
+  surveyed  ///< by targets in both scans
+};
 PairResult register_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
                          const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options, Progress& progress);
 

@@ -11,6 +11,7 @@
 #include "core/registration/observability.h"
 #include "core/registration/registration_findings.h"
 #include "core/registration/scan_pairs.h"
+#include "core/registration/wrong_guesses.h"
 
 namespace adit {
 namespace {
@@ -87,7 +88,7 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
                                  "no overlap and no control ties it to the other scans; it stands at its guess",
                                  "check its guess, or survey three targets"});
     }
-    name_undetermined(scan, options, result.findings);
+    name_undetermined(scan, nodes[i], options, result.findings);
     compare_with_guess(scan, nodes[i], options, result.findings);
   }
 }
@@ -108,7 +109,10 @@ void keep_used(RegistrationResult& result, std::vector<Node>& nodes, const Adjus
                const PoseGraph& graph) {
   std::size_t k = 0;
   for (PairResult& pair : result.pairs)
-    if (pair.used) pair.used = adjustment.pair_used[k++];
+    if (pair.used && !adjustment.pair_used[k++]) {
+      pair.used = false;
+      pair.why_not = "contradicts the other observations";
+    }
   for (Node& node : nodes) node.control.clear();
   for (std::size_t c = 0; c < graph.control.size(); ++c)
     if (adjustment.control_used[c]) nodes[graph.control[c].node].control.push_back(graph.control[c]);
@@ -133,9 +137,9 @@ std::vector<LoopClosure> loop_closures(const PoseGraph& before, const PoseGraph&
 
 }  // namespace
 
-RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const RegistrationContext& context,
+RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const RegistrationContext& known,
                                   const RegistrationOptions& options, Progress& progress) {
-  check_targets(scans, context);
+  check_targets(scans, known);
   RegistrationResult result;
   for (const auto& scan : scans) {
     result.scans.emplace_back();
@@ -145,11 +149,15 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   Progress preparing = progress.part(0.2, "preparing scans");
   const std::vector<PreparedScan> prepared = prepare_scans(scans, options, preparing);
   Progress placing = progress.part(0.4, "placing scans");
-  std::vector<Node> nodes = starting_nodes(scans, prepared, context, options, result.findings, placing);
+  std::vector<Node> nodes = starting_nodes(scans, prepared, known, options, result.findings, placing);
+  result.in_site = std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.by != Node::By::search; });
+  RegistrationContext context = known;
+  if (!result.in_site) context.axis_direction = nullptr;  // the design's axis lies in the site
   const std::vector<Candidate> candidates = candidate_pairs(nodes, options);
   Progress matching = progress.part(0.3, "matching scans");
   result.pairs = register_pairs(nodes, candidates, context, options, matching);
-  report_disagreements(result, options);
+  report_pairs(result, options);
+  set_aside_wrong_guesses(nodes, candidates, result.pairs, options, result.findings);
   Progress adjusting = progress.part(0.1, "adjusting all scans");
   const PoseGraph graph = graph_of(nodes, candidates, result.pairs, options);
   const Adjustment adjustment = adjusted(graph, adjusting);
@@ -162,7 +170,8 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   result.loops = loop_closures(used_part(graph, adjustment), joint.graph, nodes);
   place_nodes(result, nodes, candidates, graph, joint.solved, context, options);
   report_control(result, adjustment, joint.solved, graph, nodes, options);
-  judge_datum(result, nodes, context, options);
+  if (graph.datum) result.datum_scan = nodes[*graph.datum].prepared->name;
+  judge_datum(result, nodes, known, options);
   result.accepted = std::none_of(result.findings.begin(), result.findings.end(),
                                  [](const Finding& f) { return f.severity == Severity::decision; });
   return result;

@@ -31,7 +31,7 @@ struct RegistrationOptions {
   double guess_sigma_m = 0.5;     ///< how far guesses may be off (one sigma)
   double guess_sigma_deg = 2.0;
   double control_sigma_m = 0.002;      ///< of a target against its control point, per axis
-  double pair_sigma_m = 0.00015;       ///< least sigma of a pair: what a scanner bends and no overlap shows
+  double pair_sigma_m = 0.00015;       ///< least sigma of a pair: what its measured scatter leaves out
   double undetermined_sigma_m = 0.02;  ///< a direction weaker than this is named and held at its prior
   NdtSources ndt_sources = NdtSources::distributions;
   Refinement refinement = Refinement::surfaces;
@@ -49,7 +49,7 @@ void describe(Visitor& v, RegistrationOptions& o) {
            "how far guessed directions may be off (one sigma)");
   v.number("control_sigma_m", o.control_sigma_m, "m", 0.0001, 0.1, "noise of a target against its control point");
   v.number("pair_sigma_m", o.pair_sigma_m, "m", 0.0, 0.1,
-           "least sigma of a pair: what a scanner bends and no overlap shows");
+           "least sigma of a pair: what its measured scatter leaves out");
   v.number("undetermined_sigma_m", o.undetermined_sigma_m, "m", 0.002, 1.0,
            "a direction weaker than this is named and held at its prior");
   visit_choice(v, "ndt_sources", o.ndt_sources, {"distributions", "points"},
@@ -89,12 +89,18 @@ struct PairResult {
   Eigen::Vector3d balance = Eigen::Vector3d::Zero();  ///< how much of the overlap faces along, across and up: sums to 1
   double agreeing = 0.0;  ///< share of either scan's points on the other's surface, where that shows one or saw through
   double seen_through = 0.0;  ///< share of them where the other scanner saw through
-  int iterations = 0;         ///< of the normal distributions transform
-  double seconds = 0.0;       ///< it took to match, by the context's clock; 0 without, and when an earlier run did
+  double scale = 1.0;         ///< how many times the source is too small against the target, were it free to grow
+  double scale_sigma = 0.0;
+  int iterations = 0;    ///< of the normal distributions transform
+  double seconds = 0.0;  ///< it took to match, by the context's clock; 0 without, and when an earlier run did
   PoseSigma sigma;
   /// Of "along", "across", "up", "roll", "pitch", "yaw" those that the clouds do not tell; held at the guess.
   std::vector<std::string> undetermined;
-  bool used = true;  ///< false when it overlaps too little or the adjustment found it wrong
+  /// How far along the tunnel from here it fits as well (ribs and rings repeat), so that "along" is undetermined; 0:
+  /// nowhere near.
+  double alike_m = 0.0;
+  bool used = true;     ///< in the adjustment
+  std::string why_not;  ///< in words, when it is not used
   Matrix6d information =
       Matrix6d::Zero();  ///< of (rotation [rad], translation [m]) in the target's frame at the source's origin
 };
@@ -133,6 +139,10 @@ struct RegistrationResult {
   /// datum: zero with control; without, what the guess of the datum scan is worth (position, and direction over half
   /// the span).
   double datum_sigma_m = 0.0;
+  /// The scan whose pose the survey hangs on where no scan has three targets; empty with control.
+  std::string datum_scan;
+  /// False where nothing ties the survey to the site, neither control nor a guess: poses are in the datum scan's frame.
+  bool in_site = true;
   Findings findings;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
 
 #include "core/foundation/angle.h"
 #include "core/geometry/pose_step.h"
@@ -13,8 +12,7 @@
 namespace adit {
 namespace {
 
-constexpr double huber_sigmas = 4.0;           // as in the adjustment
-constexpr double wrong_residual_sigmas = 4.0;  // one in 16,000 by chance
+constexpr double huber_sigmas = 4.0;  // as in the adjustment
 
 /// What of a target's errors shows in its residual: I - w J C J^T / sigma^2 with the weight w that Huber's loss left
 /// it.
@@ -47,12 +45,19 @@ std::string name_of(const Suspect& suspect, const PoseGraph& graph, const std::v
   return "target " + first.id + " of scan " + scan_of(first.node);
 }
 
+/// Scans of one scanner differ by some 0.02 per mille; what bends in a scan takes more, so that it must be clear.
+bool is_other_scale(const PairResult& pair) {
+  constexpr double least_off = 3e-4, clear_sigmas = 5.0;
+  const double off = std::abs(pair.scale - 1.0);
+  return pair.scale_sigma > 0.0 && off > least_off && off > clear_sigmas * pair.scale_sigma;
+}
+
 std::string mend_of(Suspect::Kind kind) {
   switch (kind) {
     case Suspect::Kind::pair:
       return "check the poses of both scans, their overlap, and whether each has the file of its station";
     case Suspect::Kind::observation:
-      return "check its name and its place in the scan; it stays left out until the targets or the control are mended";
+      return "check its name, its place in the scan and its control point; it stays left out until these are mended";
     case Suspect::Kind::point:
       return "check its coordinates in the control file, and whether it has moved";
     case Suspect::Kind::scan:
@@ -63,16 +68,31 @@ std::string mend_of(Suspect::Kind kind) {
 
 }  // namespace
 
-void report_disagreements(RegistrationResult& result, const RegistrationOptions& options) {
+void report_pairs(RegistrationResult& result, const RegistrationOptions& options) {
   for (const PairResult& pair : result.pairs) {
-    if (pair.overlap < options.least_overlap || pair.agreeing >= least_agreeing) continue;
-    char words[160];
-    std::snprintf(
-        words, sizeof words,
-        "not used: only %.0f %% of what both show lies on the same surfaces, so the place found is a wrong one",
-        100.0 * pair.agreeing);
-    result.findings.push_back({Severity::warning, "pair " + pair.source + " - " + pair.target, words,
-                               "check the poses of both scans, and whether the place was changed between them"});
+    const std::string subject = "pair " + pair.source + " - " + pair.target;
+    char words[200];
+    if (pair.agreeing < least_agreeing && pair.overlap >= options.least_overlap)
+      result.findings.push_back({Severity::warning, subject,
+                                 "not used: it " + pair.why_not + ", so the place found is a wrong one",
+                                 "check the poses of both scans, and whether the place was changed between them"});
+    if (!pair.used) continue;
+    if (pair.alike_m != 0.0) {
+      std::snprintf(words, sizeof words,
+                    "fits as well %.2f m farther %s the tunnel, where its ribs or rings repeat: \"along\" is held",
+                    std::abs(pair.alike_m), pair.alike_m > 0.0 ? "along" : "back along");
+      result.findings.push_back(
+          {Severity::warning, subject, words,
+           "survey targets, or state in registration.guess_sigma_m how well the poses are known"});
+    }
+    if (is_other_scale(pair)) {
+      std::snprintf(words, sizeof words, "%s shows everything %.2f per mille %s than %s does (sigma %.2f)",
+                    pair.source.c_str(), 1e3 * std::abs(pair.scale - 1.0), pair.scale > 1.0 ? "smaller" : "larger",
+                    pair.target.c_str(), 1e3 * pair.scale_sigma);
+      result.findings.push_back(
+          {Severity::decision, subject, words,
+           "check both files' units and the scanners' corrections: volumes err by three times that"});
+    }
   }
 }
 
@@ -82,9 +102,12 @@ void report_contradictions(RegistrationResult& result, const Adjustment& adjustm
     std::vector<std::string> names;
     for (const Suspect& suspect : contradiction.suspects) names.push_back(name_of(suspect, graph, nodes));
     if (contradiction.left_out) {
-      result.findings.push_back({Severity::decision, names.front(),
-                                 "contradicts the other observations and was left out of the adjustment",
-                                 mend_of(contradiction.suspects.front().kind)});
+      char words[160];
+      std::snprintf(words, sizeof words,
+                    "contradicts the other observations by %.3f m and was left out of the adjustment",
+                    contradiction.off_m);
+      result.findings.push_back(
+          {Severity::decision, names.front(), words, mend_of(contradiction.suspects.front().kind)});
     } else if (names.size() == 1) {
       result.findings.push_back({Severity::decision, "adjustment",
                                  names.front() + " contradicts the other observations; without it too little control "
@@ -118,10 +141,10 @@ void report_control(RegistrationResult& result, const Adjustment& adjustment, co
                       residual.norm(), options.control_sigma_m);
     constexpr double least_redundancy = 0.01;  // of less, a residual is rounding
     reported.redundancy = redundancy.mean();
-    reported.normalised =
-        (residual.array().abs() / (options.control_sigma_m * redundancy.array().max(least_redundancy).sqrt()))
-            .maxCoeff();
-    if (reported.normalised <= wrong_residual_sigmas) continue;
+    const Eigen::Vector3d in_sigmas =
+        residual.array() / (options.control_sigma_m * redundancy.array().max(least_redundancy).sqrt());
+    reported.normalised = std::max(in_sigmas.cwiseAbs().maxCoeff(), 8.0 / 9.0 * in_sigmas.norm());
+    if (reported.normalised <= wrong_normalised) continue;
     char words[200];
     std::snprintf(words, sizeof words, "residual of %.1f mm at target %s: %.1f times what its sigma explains",
                   1000.0 * residual.norm(), control.id.c_str(), reported.normalised);
@@ -130,31 +153,28 @@ void report_control(RegistrationResult& result, const Adjustment& adjustment, co
   result.control_rms_m = components.empty() ? 0.0 : root_mean_square(components);
 }
 
-void name_undetermined(PlacedScan& scan, const RegistrationOptions& options, Findings& findings) {
-  const std::pair<const char*, double> directions[] = {
-      {"along", scan.sigma.along_m}, {"across", scan.sigma.across_m}, {"up", scan.sigma.up_m}};
-  for (const auto& [direction, sigma_m] : directions) {
-    if (sigma_m <= options.undetermined_sigma_m) continue;
-    scan.undetermined.emplace_back(direction);
-    char words[160];
-    std::snprintf(words, sizeof words, "%s: not determined by the clouds (sigma %.0f mm), held at the guess",
-                  std::string_view(direction) == "up" ? "vertically" : (std::string(direction) + " the tunnel").c_str(),
-                  1000.0 * sigma_m);
-    findings.push_back(
-        {Severity::decision, "scan " + scan.name, words, "survey targets for this scan or add scans between"});
-  }
+void name_undetermined(PlacedScan& scan, const Node& node, const RegistrationOptions& options, Findings& findings) {
   constexpr double lever_m = 5.0;  // walls stand about so far away
-  const std::pair<const char*, double> turns[] = {
-      {"roll", scan.sigma.roll_rad}, {"pitch", scan.sigma.pitch_rad}, {"yaw", scan.sigma.yaw_rad}};
-  for (const auto& [turn, sigma_rad] : turns) {
-    if (lever_m * sigma_rad <= options.undetermined_sigma_m) continue;
-    scan.undetermined.emplace_back(turn);
-    char words[160];
-    std::snprintf(words, sizeof words, "%s: not determined by the clouds (sigma %.2f degrees), held at the guess", turn,
-                  deg_from_rad(sigma_rad));
-    findings.push_back(
-        {Severity::decision, "scan " + scan.name, words, "survey targets for this scan or add scans between"});
-  }
+  const PoseSigma& sigma = scan.sigma;
+  std::string weak;
+  const auto name = [&](const char* direction, double sigma_m, double shown, const char* format) {
+    if (sigma_m <= options.undetermined_sigma_m) return;
+    scan.undetermined.emplace_back(direction);
+    char words[80];
+    std::snprintf(words, sizeof words, format, direction, shown);
+    weak += (weak.empty() ? "" : ", ") + std::string(words);
+  };
+  name("along", sigma.along_m, 1000.0 * sigma.along_m, "%s the tunnel (sigma %.0f mm)");
+  name("across", sigma.across_m, 1000.0 * sigma.across_m, "%s the tunnel (sigma %.0f mm)");
+  name("up", sigma.up_m, 1000.0 * sigma.up_m, "%s (sigma %.0f mm)");
+  name("roll", lever_m * sigma.roll_rad, deg_from_rad(sigma.roll_rad), "%s (sigma %.2f degrees)");
+  name("pitch", lever_m * sigma.pitch_rad, deg_from_rad(sigma.pitch_rad), "%s (sigma %.2f degrees)");
+  name("yaw", lever_m * sigma.yaw_rad, deg_from_rad(sigma.yaw_rad), "%s (sigma %.2f degrees)");
+  if (weak.empty()) return;
+  findings.push_back({Severity::decision, "scan " + scan.name,
+                      weak + ": not determined by the clouds" +
+                          (node.by == Node::By::guess ? ", held at the guess" : " and too weakly by control"),
+                      "survey targets for this scan or add scans between"});
 }
 
 void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,
@@ -175,31 +195,27 @@ void compare_with_guess(const PlacedScan& scan, const Node& node, const Registra
 
 void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,
                  const RegistrationOptions& options) {
+  if (!result.in_site) {
+    result.findings.push_back({context.axis_direction ? Severity::decision : Severity::note, "datum",
+                               "there is neither control nor a guess: all coordinates are those of scan " +
+                                   result.datum_scan + ", not the site's, and nothing is compared with a design",
+                               "survey three targets, or give one scan a pose in job.json"});
+    return;
+  }
   if (std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.control.size() >= least_targets; })) return;
   double span_m = 0.0;
   for (const Node& node : nodes) span_m = std::max(span_m, distance_between_m(node.start, nodes.front().start));
   result.datum_sigma_m = std::hypot(options.guess_sigma_m, 0.5 * span_m * rad_from_deg(options.guess_sigma_deg));
   if (!context.axis_direction || result.datum_sigma_m <= options.undetermined_sigma_m) return;
-  const bool guessed = std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.by == Node::By::guess; });
-  if (!guessed) {
-    result.findings.push_back(
-        {Severity::decision, "datum",
-         "there is neither control nor a guess: the survey stands in the frame of its first scan, "
-         "not in the site, and nothing can be said of the design",
-         "survey three targets, or give one scan a pose in job.json"});
-    return;
-  }
-  const bool some_control = std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return !n.control.empty(); });
-  char words[240];
-  std::snprintf(
-      words, sizeof words,
-      "%s: the survey stands in the site as guesses of its scans say (sigma %.0f mm), and so do overbreak and "
-      "underbreak",
-      some_control ? "no scan has three targets" : "there is no control", 1000.0 * result.datum_sigma_m);
-  result.findings.push_back(
-      {Severity::decision, "datum", words,
-       "survey three targets, or state in registration.guess_sigma_m and guess_sigma_deg how well the "
-       "station is known"});
+  const std::string by = result.datum_scan.empty()
+                             ? "guesses of its scans say, for none has three targets"
+                             : "the guess of scan " + result.datum_scan + " says, for there is no control";
+  char words[120];
+  std::snprintf(words, sizeof words, " (sigma %.0f mm), and so do overbreak and underbreak",
+                1000.0 * result.datum_sigma_m);
+  result.findings.push_back({Severity::decision, "datum", "the survey stands in the site as " + by + words,
+                             "survey three targets, or state in registration.guess_sigma_m and guess_sigma_deg how "
+                             "well the station is known"});
 }
 
 }  // namespace adit

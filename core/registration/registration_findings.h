@@ -6,27 +6,28 @@
 
 namespace adit {
 
-/// Pairs that overlap and yet do not show the same surfaces.
-void report_disagreements(RegistrationResult& result, const RegistrationOptions& options);
+/// Pairs that overlap and yet do not show the same surfaces, that fit as well elsewhere along the tunnel, and those of
+/// which one scan is larger than the other.
+void report_pairs(RegistrationResult& result, const RegistrationOptions& options);
 
 /// What contradicted the rest, and what was done about it.
 void report_contradictions(RegistrationResult& result, const Adjustment& adjustment, const PoseGraph& graph,
                            const std::vector<Node>& nodes);
 
-/// Residuals of control with their redundancy; those that fail the blunder test (normalised residual over 4) as
+/// Residuals of control with their redundancy; those that fail the blunder test (wrong_normalised) as
 /// findings.
 void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved,
                     const PoseGraph& graph, const std::vector<Node>& nodes, const RegistrationOptions& options);
 
 /// Directions of a scan whose sigma is too great to be called known.
-void name_undetermined(PlacedScan& scan, const RegistrationOptions& options, Findings& findings);
+void name_undetermined(PlacedScan& scan, const Node& node, const RegistrationOptions& options, Findings& findings);
 
 /// A scan that ended far from its guess: the guess was wrong, or the match is.
 void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,
                         Findings& findings);
 
-/// Without control the place of the whole survey is only as good as the guess of its datum scan, and so is every number
-/// against a design.
+/// Where no scan has three targets the place of the whole survey is only as good as the guess of its datum scan, and so
+/// is every number against a design.
 void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,
                  const RegistrationOptions& options);
 

@@ -1,6 +1,7 @@
 #include "core/registration/scan_pairs.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 #include <set>
 
@@ -12,6 +13,24 @@ namespace {
 
 constexpr std::size_t most_pairs_a_scan = 4;
 
+std::string why_not(const PairResult& pair, const RegistrationOptions& options) {
+  char words[120];
+  if (pair.overlap < options.least_overlap) {
+    std::snprintf(words, sizeof words, "overlaps by only %.0f %%", 100.0 * pair.overlap);
+    return words;
+  }
+  if (pair.agreeing >= least_agreeing) return {};
+  std::snprintf(words, sizeof words, "lies on the same surfaces with only %.0f %% of what both show",
+                100.0 * pair.agreeing);
+  return words;
+}
+
+Start start_of(const Node& target, const Node& source) {
+  const auto both = [&](Node::By by) { return target.by == by && source.by == by; };
+  if (both(Node::By::search)) return Start::found;
+  return both(Node::By::control) ? Start::surveyed : Start::guess;
+}
+
 /// A pair with directions that it does not know has nothing to say of scans which others tie together in all of them.
 void leave_out_weak(std::vector<PairResult>& pairs, const std::vector<Candidate>& candidates, std::size_t nodes) {
   std::vector<std::size_t> group(nodes);
@@ -20,8 +39,10 @@ void leave_out_weak(std::vector<PairResult>& pairs, const std::vector<Candidate>
     if (pairs[k].used && pairs[k].undetermined.empty())
       std::replace(group.begin(), group.end(), std::size_t{group[candidates[k].source]}, group[candidates[k].target]);
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (!pairs[k].undetermined.empty() && group[candidates[k].source] == group[candidates[k].target])
+    if (pairs[k].used && !pairs[k].undetermined.empty() && group[candidates[k].source] == group[candidates[k].target]) {
       pairs[k].used = false;
+      pairs[k].why_not = "does not know \"" + pairs[k].undetermined.front() + "\", which other pairs know";
+    }
 }
 
 }  // namespace
@@ -74,11 +95,11 @@ std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std
         const Node& target = nodes[candidates[k].target];
         const Node& source = nodes[candidates[k].source];
         const Eigen::Vector3d axis = target.start.linear().transpose() * axis_at(context, target, target.start);
-        const bool found = target.by == Node::By::search && source.by == Node::By::search;
         results[k] = matched_pair(*target.prepared, *source.prepared, target.start.inverse() * source.start,
-                                  found ? Start::found : Start::guess, axis, options, parts[k]);
+                                  start_of(target, source), axis, options, parts[k]);
         results[k].seconds = context.clock_s ? context.clock_s() - begun_s : 0.0;
-        results[k].used = results[k].overlap >= options.least_overlap && results[k].agreeing >= least_agreeing;
+        results[k].why_not = why_not(results[k], options);
+        results[k].used = results[k].why_not.empty();
       },
       1);
   leave_out_weak(results, candidates, nodes.size());

@@ -10,21 +10,10 @@ namespace {
 
 constexpr double least_facing = 0.7;  // cosine: two faces of one wall, or a corner, are not the same surface
 
-/// Tukey's weight, and the derivative of weight times residual.
-struct Tukey {
-  double weight = 0.0;
-  double curvature = 0.0;
-};
-Tukey tukey(double residual_m, double reach_m) {
+/// The derivative of Tukey's weight times residual.
+double tukey_curvature(double residual_m, double reach_m) {
   const double u2 = residual_m * residual_m / (reach_m * reach_m);
-  if (u2 >= 1.0) return {};
-  return {(1.0 - u2) * (1.0 - u2), (1.0 - u2) * (1.0 - 5.0 * u2)};
-}
-
-Vector6d jacobian(const SurfaceMatch& match) {
-  Vector6d j;
-  j << match.arm.cross(match.normal), match.normal;
-  return j;
+  return u2 < 1.0 ? (1.0 - u2) * (1.0 - 5.0 * u2) : 0.0;
 }
 
 /// The target's surface about a source piece.
@@ -37,6 +26,7 @@ class Surface {
     const Eigen::Vector3d away = place_ - piece.place.cast<double>();
     const double squared = away.squaredNorm();
     if (squared >= reach2_) return;
+    near_ = true;
     Eigen::Vector3d normal = piece.normal.cast<double>();
     const double facing = source_normal_.dot(normal);
     if (std::abs(facing) < least_facing) return;
@@ -48,9 +38,10 @@ class Surface {
     nearest2_ = std::min(nearest2_, squared);
   }
 
-  bool is_near() const { return weight_ > 1e-6; }
+  bool is_near() const { return near_; }
 
-  SurfaceMatch match(const Eigen::Vector3d& origin) const {
+  std::optional<SurfaceMatch> match(const Eigen::Vector3d& origin) const {
+    if (!(weight_ > 1e-6)) return std::nullopt;
     SurfaceMatch match;
     const Eigen::Vector3d target_normal = normal_.normalized();
     match.arm = place_ - origin;
@@ -64,11 +55,19 @@ class Surface {
  private:
   Eigen::Vector3d place_, source_normal_;
   double reach2_;
+  bool near_ = false;
   double weight_ = 0.0, residual_ = 0.0, nearest2_ = 1e300;
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace
+
+Meeting meeting_of(const SurfaceMap& target, const SurfacePiece& piece, const Pose& target_from_source) {
+  const Eigen::Vector3d place = target_from_source * piece.place.cast<double>();
+  Surface surface(place, target_from_source.linear() * piece.normal.cast<double>(), target.cell_m());
+  target.visit_near(place, [&](const SurfacePiece& near) { surface.add(near); });
+  return {surface.is_near(), surface.match(target_from_source.translation())};
+}
 
 std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, std::span<const SurfacePiece> source,
                                           const Pose& target_from_source, Progress& progress) {
@@ -76,12 +75,8 @@ std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, std::span<co
     progress.check();
     std::vector<SurfaceMatch> matches;
     matches.reserve(end - begin);
-    for (const SurfacePiece& piece : source.subspan(begin, end - begin)) {
-      const Eigen::Vector3d place = target_from_source * piece.place.cast<double>();
-      Surface surface(place, target_from_source.linear() * piece.normal.cast<double>(), target.cell_m());
-      target.visit_near(place, [&](const SurfacePiece& near) { surface.add(near); });
-      if (surface.is_near()) matches.push_back(surface.match(target_from_source.translation()));
-    }
+    for (const SurfacePiece& piece : source.subspan(begin, end - begin))
+      if (const auto match = meeting_of(target, piece, target_from_source).match) matches.push_back(*match);
     return matches;
   });
 }
@@ -99,17 +94,17 @@ NormalEquations normal_equations(std::span<const SurfaceMatch> matches, double t
   return parallel_ordered_sum(matches.size(), 4096, NormalEquations{}, [&](std::size_t begin, std::size_t end) {
     NormalEquations sums;
     for (const SurfaceMatch& match : matches.subspan(begin, end - begin)) {
-      const Tukey pull = tukey(match.residual_m, tukey_m);
-      if (!(pull.weight > 0.0)) continue;
-      const Vector6d j = jacobian(match);
-      const Vector6d weighted = pull.weight * j;
+      const double weight = tukey_weight(match.residual_m, tukey_m);
+      if (!(weight > 0.0)) continue;
+      const Vector6d j = jacobian_of(match);
+      const Vector6d weighted = weight * j;
       sums.hessian.noalias() += weighted * j.transpose();
       sums.gradient += match.residual_m * weighted;
-      sums.weight += pull.weight;
-      sums.curvature += pull.curvature;
+      sums.weight += weight;
+      sums.curvature += tukey_curvature(match.residual_m, tukey_m);
       Vector6d error;
       error << match.arm.cross(match.normal_error), match.normal_error;
-      const Vector6d weighted_error = pull.weight * error;
+      const Vector6d weighted_error = weight * error;
       sums.noise.noalias() += weighted_error * error.transpose();
     }
     return sums;
@@ -124,8 +119,8 @@ std::vector<CubeSums> sums_by_cubes(std::span<const SurfaceMatch> matches, doubl
   for (std::size_t n = 0; n < by_cube.size(); ++n) {
     if (n == 0 || by_cube[n - 1].first != by_cube[n].first) cubes.emplace_back();
     const SurfaceMatch& match = matches[by_cube[n].second];
-    const Vector6d j = jacobian(match);
-    const Vector6d weighted = tukey(match.residual_m, tukey_m).weight * j;
+    const Vector6d j = jacobian_of(match);
+    const Vector6d weighted = tukey_weight(match.residual_m, tukey_m) * j;
     cubes.back().hessian.noalias() += weighted * j.transpose();
     cubes.back().gradient += match.residual_m * weighted;
   }

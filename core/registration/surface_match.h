@@ -1,6 +1,7 @@
 #pragma once
 // Pieces of two scans' surfaces laid upon each other, and what the distances between them say about the pose.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,16 @@ struct SurfaceMatch {
   Eigen::Vector3d normal_error = Eigen::Vector3d::Zero();  ///< half the difference of the two: as good as its error
 };
 
+/// Of fewer matches nothing can be said.
+inline constexpr std::size_t least_matches = 50;
+
+/// A source's piece and what the target has near it.
+struct Meeting {
+  bool near = false;                  ///< the target has pieces within one cell, whichever way they face
+  std::optional<SurfaceMatch> match;  ///< where some of them face as the source's piece does
+};
+Meeting meeting_of(const SurfaceMap& target, const SurfacePiece& piece, const Pose& target_from_source);
+
 /// For every source piece with target pieces within one cell that face the same way (45 degrees): the distance to the
 /// surface that these make together, with the weights w of near_weight (implicit moving least squares, Kolluri
 /// 2008),
@@ -26,6 +37,19 @@ struct SurfaceMatch {
 /// the normals of both sides halved (the symmetric metric of Rusinkiewicz 2019: exact on surfaces that curve).
 std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, std::span<const SurfacePiece> source,
                                           const Pose& target_from_source, Progress& progress);
+
+/// [arm x n, n]: what a turn [rad] about the source's origin and a shift do to the residual.
+inline Vector6d jacobian_of(const SurfaceMatch& match) {
+  Vector6d j;
+  j << match.arm.cross(match.normal), match.normal;
+  return j;
+}
+
+/// Tukey's weight of a residual: none beyond the reach.
+inline double tukey_weight(double residual_m, double reach_m) {
+  const double left = 1.0 - residual_m * residual_m / (reach_m * reach_m);
+  return left > 0.0 ? left * left : 0.0;
+}
 
 /// Sums over matches with J = [arm x n, n] (rotation [rad] about the source's origin, then translation [m]) and Tukey's
 /// weights w of the given reach.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/foundation/angle.h"
 #include "render/number_text.h"
@@ -36,6 +37,21 @@ TableCell known(const PairResult& pair, const char* direction, double value) {
   return has(pair.undetermined, direction) ? TableCell("\u2013", colours::red, true) : TableCell(fixed(value, 1));
 }
 
+/// The pairs that were used, between their stations.
+std::vector<PlanTie> ties_of(const RegistrationResult& registration, const Plan& plan) {
+  const auto station = [&](const std::string& name) {
+    return std::find_if(plan.stations.begin(), plan.stations.end(),
+                        [&](const PlanPlace& place) { return place.name == name; });
+  };
+  std::vector<PlanTie> ties;
+  for (const PairResult& pair : registration.pairs) {
+    const auto from = station(pair.target), to = station(pair.source);
+    if (pair.used && from != plan.stations.end() && to != plan.stations.end())
+      ties.push_back({from->position, to->position, pair.undetermined.empty()});
+  }
+  return ties;
+}
+
 void add_plan(PageFlow& flow, const ReportContent& content) {
   const ProjectOrigin& origin = content.results->import.origin;
   Plan plan;
@@ -44,13 +60,16 @@ void add_plan(PageFlow& flow, const ReportContent& content) {
       plan.axis.push_back({s.chainage_m, s.axis_site.head<2>()});
   for (const PlacedScan& scan : content.results->registration.scans)
     if (scan.placed) plan.stations.push_back({scan.name, origin.to_site(scan.local_from_scan.translation()).head<2>()});
-  for (const ControlPoint& point : content.control)
-    plan.control.push_back({point.id, origin.to_site(point.position).head<2>()});
+  plan.ties = ties_of(content.results->registration, plan);
+  if (content.results->registration.in_site)
+    for (const ControlPoint& point : content.control)
+      plan.control.push_back({point.id, origin.to_site(point.position).head<2>()});
   if (plan.axis.empty() && plan.stations.empty() && plan.control.empty()) return;
   draw_plan(flow.canvas(), flow.take(62.0), plan);
   flow.skip(1.5);
   flow.paragraph(
-      "Triangles: scanner stations. Green crosses: control points. Dash-dot: the design axis with chainages.",
+      "Triangles: scanner stations. Grey lines: pairs of scans that were used; red, dashed: those that do not know every "
+      "direction. Green crosses: control points. Dash-dot: the design axis with chainages.",
       colours::grey, 2.3);
 }
 
@@ -87,7 +106,7 @@ void add_scans(PageFlow& flow, const Results& results) {
   flow.table(table);
   flow.paragraph(
       "Site coordinates of the scanner in metres; one standard deviation along the tunnel, across it and up, and about "
-      "its axes (thousandths of a degree). A direction in red is not known from the clouds or the control; it is held at the guess.",
+      "its axes (thousandths of a degree). A direction in red is not known from the clouds or the control; it is held at the guess where there is one.",
       colours::grey, 2.3);
 }
 
@@ -100,29 +119,34 @@ void add_pairs(PageFlow& flow, const Results& results) {
   flow.subheading("How the pairs fit");
   Table table{{{"scan", 20, false},
                {"on", 20, false},
-               {"overlap", 14, true},
+               {"overlap", 13, true},
                {"median mm", 13, true},
                {"rms mm", 12, true},
                {"within 6 mm", 15, true},
-               {"along, across, up", 32, true},
-               {"agreeing", 15, true},
+               {"along, across, up", 28, true},
+               {"agreeing", 14, true},
                {"seen through", 16, true},
-               {"iterations", 17, true},
-               {"used", 13, false}},
+               {"scale \xE2\x80\xB0", 13, true},
+               {"iterations", 14, true},
+               {"used", 9, false}},
               {},
               2.2};
   for (const PairResult& p : pairs)
-    table.rows.push_back({p.source, p.target, percent(p.overlap), fixed(1000.0 * p.median_m, 1),
-                          fixed(1000.0 * p.rms_m, 1), percent(p.within_6mm),
-                          percent(p.balance.x()) + "  " + percent(p.balance.y()) + "  " + percent(p.balance.z()),
-                          percent(p.agreeing), percent(p.seen_through, 1), std::to_string(p.iterations),
-                          p.used ? TableCell("yes") : TableCell("no", colours::red, true)});
+    table.rows.push_back(
+        {p.source, p.target, percent(p.overlap), fixed(1000.0 * p.median_m, 1), fixed(1000.0 * p.rms_m, 1),
+         percent(p.within_6mm), percent(p.balance.x()) + "  " + percent(p.balance.y()) + "  " + percent(p.balance.z()),
+         percent(p.agreeing), percent(p.seen_through, 1),
+         p.scale_sigma > 0.0 ? with_sign(1000.0 * (p.scale - 1.0), 2) : "", std::to_string(p.iterations),
+         p.used ? TableCell("yes") : TableCell("no", colours::red, true)});
   flow.table(table);
   flow.paragraph(
       "Residuals are distances to the surface that both scans make. Along, across, up: where the overlap faces. Agreeing: points that lie on the other scan's "
       "surface, of those where it shows one or its scanner saw through. Seen through: points where the other scanner "
-      "measured something behind; what stands there moved, or the pair is wrong. Times: pair_timing_s in results.json.",
+      "measured something behind; what stands there moved, or the pair is wrong. Scale: by how many thousandths the first scan would have to grow. Times: pair_timing_s in results.json.",
       colours::grey, 2.3);
+  for (const PairResult& p : pairs)
+    if (!p.used)
+      flow.paragraph("Not used: " + p.source + " on " + p.target + ", which " + p.why_not + ".", colours::grey, 2.3);
   const double height = pair_bars_height(std::min<std::size_t>(pairs.size(), 16));
   draw_pair_bars(flow.canvas(), flow.take(height), std::move(pairs));
   flow.skip(2.0);
@@ -148,7 +172,9 @@ void add_what_pairs_know(PageFlow& flow, const Results& results) {
         {p.source, p.target, known(p, "along", 1e3 * p.sigma.along_m), known(p, "across", 1e3 * p.sigma.across_m),
          known(p, "up", 1e3 * p.sigma.up_m), known(p, "roll", 1e3 * deg_from_rad(p.sigma.roll_rad)),
          known(p, "pitch", 1e3 * deg_from_rad(p.sigma.pitch_rad)), known(p, "yaw", 1e3 * deg_from_rad(p.sigma.yaw_rad)),
-         TableCell(joined(p.undetermined), colours::red, true)});
+         TableCell(
+             joined(p.undetermined) + (p.alike_m == 0.0 ? "" : " (as well " + fixed(std::abs(p.alike_m), 2) + " m on)"),
+             colours::red, true)});
   flow.table(table);
 }
 
@@ -212,16 +238,16 @@ void add_control(PageFlow& flow, const Results& results) {
               {},
               2.3};
   for (const ControlResidual& r : results.registration.control)
-    table.rows.push_back(
-        {r.scan, r.id, with_sign(1000.0 * r.residual_m.x(), 1), with_sign(1000.0 * r.residual_m.y(), 1),
-         with_sign(1000.0 * r.residual_m.z(), 1), fixed(1000.0 * r.residual_m.norm(), 1),
-         r.used ? fixed(r.redundancy, 2) : "",
-         TableCell(r.used ? fixed(r.normalised, 1) : "", r.normalised > 4.0 ? colours::red : colours::black),
-         TableCell(r.used ? "yes" : "no", r.used ? colours::black : colours::red, !r.used)});
+    table.rows.push_back({r.scan, r.id, with_sign(1000.0 * r.residual_m.x(), 1),
+                          with_sign(1000.0 * r.residual_m.y(), 1), with_sign(1000.0 * r.residual_m.z(), 1),
+                          fixed(1000.0 * r.residual_m.norm(), 1), r.used ? fixed(r.redundancy, 2) : "",
+                          TableCell(r.used ? fixed(r.normalised, 1) : "",
+                                    r.normalised > wrong_normalised ? colours::red : colours::black),
+                          TableCell(r.used ? "yes" : "no", r.used ? colours::black : colours::red, !r.used)});
   flow.table(table);
   flow.paragraph(
-      "Redundancy: how much of an error of this target the others would show, 0 nothing, 1 all. Normalised: the greatest "
-      "residual of an axis over the sigma it should have; over 4 is a blunder.",
+      "Redundancy: how much of an error of this target the others would show, 0 nothing, 1 all. Normalised: the "
+      "residual in the sigmas it should have, its greatest axis or eight ninths of its length; over 4 is a blunder.",
       colours::grey, 2.3);
   flow.paragraph("Root mean square of the targets used, per axis: " +
                      fixed(1000.0 * results.registration.control_rms_m, 1) + " mm.",

@@ -8,6 +8,7 @@ import json
 import pathlib
 import re
 import shutil
+import struct
 import sys
 import tempfile
 
@@ -112,6 +113,36 @@ def guess_five_metres_off(job):
     changed_job(job, change)
 
 
+def guess_far_off_and_turned(job):
+    def change(plan):
+        without_control(plan)
+        pose = plan["scans"][1]["pose"]
+        pose["position"][1] += 8.0
+        turns = pose.get("yaw_pitch_roll_deg", [0.0, 0.0, 0.0])
+        pose["yaw_pitch_roll_deg"] = [(turns[0] + 200.0) % 360.0] + turns[1:]
+    changed_job(job, change)
+
+
+def neither_control_nor_guess(job):
+    def change(plan):
+        without_control(plan)
+        for scan in plan["scans"]:
+            del scan["pose"]
+    changed_job(job, change)
+
+
+def scan_one_per_mille_too_large(job):
+    """As with a wrong correction for the air, or feet that are not quite feet."""
+    file = job / "scans/S2.ply"
+    head, _, points = file.read_bytes().partition(b"end_header\n")
+    size = sum({b"float": 4, b"ushort": 2, b"uchar": 1}[line.split()[1]] for line in head.splitlines()
+               if line.startswith(b"property"))
+    scaled = bytearray(points)
+    for at in range(0, len(points), size):
+        struct.pack_into("<3f", scaled, at, *(1.001 * x for x in struct.unpack_from("<3f", points, at)))
+    file.write_bytes(head + b"end_header\n" + scaled)
+
+
 def no_control(job):
     changed_job(job, without_control)
 
@@ -127,7 +158,7 @@ def more_chainage_than_was_scanned(job):
 # change, last command, exit code, what must be said, what must not be said, whether the poses stay true
 CASES = [
     (control_point_ten_centimetres_off, "register", 1, r"control point T105: contradicts .* left out", r"pair .*left out|targets? ", True),
-    (target_eight_centimetres_off, "register", 1, r"target T106 of scan S2: contradicts .* left out", r"pair .*left out|point", True),
+    (target_eight_centimetres_off, "register", 1, r"target T106 of scan S2: contradicts .* left out", r"pair .*left out|^point", True),
     (two_target_names_exchanged, "register", 1, r"targets of scan S3: contradicts .* names are exchanged", r"pair .*left out|point T", True),
     (targets_under_the_wrong_scan, "register", 1, r"targets of scan S[23]: contradicts .*; check whether they are filed under", r"pair .*left out", True),
     (files_under_the_wrong_scan, "register", 1, r"pair S3 - S2: contradicts .* the file of its station", None, False),
@@ -136,8 +167,11 @@ CASES = [
     (poses_east_and_north_exchanged, "register", 2, r"job\.json: scans.* swapped", None, False),
     (all_ten_kilometres_east, "register", 1, r"scan S1: stands \d+ m from the axis, far from the tunnel", None, False),
     (all_ten_kilometres_east, "surface", 2, r"no point of the scans lies near .*: scan S1 stands \d+ m from the axis", None, False),
-    (guess_five_metres_off, "register", 1, r"scan S2: ended \d\.\d\d m .* from its guess", None, False),
-    (no_control, "register", 1, r"datum: there is no control", None, False),
+    (guess_five_metres_off, "register", 1, r"scan S2: its guess is \d\.\d\d m .* set aside", None, False),
+    (guess_far_off_and_turned, "register", 1, r"scan S2: its guess is [89]\.\d\d m and 1[56]\d\.\d degrees .* set aside", r"pair ", False),
+    (neither_control_nor_guess, "volume", 1, r"datum: there is neither .* coordinates are those of scan S1", r"axis", False),
+    (scan_one_per_mille_too_large, "register", 1, r"pair S\d - S\d: S\d shows everything [01]\.\d\d per mille", None, False),
+    (no_control, "register", 1, r"datum: .*for there is no control", None, False),
     (the_same_scan_twice, "register", 1, r"S2.* same ", None, False),
     (more_chainage_than_was_scanned, "profile", 1, r"coverage: only \d+ % of the stretch was seen", None, False),
 ]

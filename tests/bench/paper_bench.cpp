@@ -194,18 +194,23 @@ void figure_3(const Scans& scans) {
   save("figure-3.png", canvas.finish_picture());
 }
 
+/// The paper's with one thing changed.
+template <typename Change>
+Outcome paper_outcome(const char* name, const Scans& scans, const IcpCloud& target, const IcpCloud& source,
+                      const Change& change) {
+  return outcome(name, scans, runs, [&](const Pose& start, std::uint64_t run) {
+    IcpOptions options = paper_icp(run);
+    change(options);
+    return icp(target, source, start, options);
+  });
+}
+
 void figure_4(const Scans& apart) {
   heading("Figure 4: boundary points (scans 8 m apart, 3,000 random points, point to point, 1 m)");
   const IcpCloud target = with_normals(apart.target), source = with_normals(apart.source);
-  const auto row = [&](const char* name, bool rejected) {
-    return outcome(name, apart, runs, [&](const Pose& start, std::uint64_t run) {
-      IcpOptions options = paper_icp(run);
-      options.boundary_rejected = rejected;
-      return icp(target, source, start, options);
-    });
-  };
-  const Outcome kept = row("boundary points kept", false);
-  const Outcome rejected = row("boundary points rejected", true);
+  const Outcome kept = paper_outcome("boundary points kept", apart, target, source, [](IcpOptions&) {});
+  const Outcome rejected = paper_outcome("boundary points rejected", apart, target, source,
+                                         [](IcpOptions& options) { options.boundary_rejected = true; });
   save("figure-4.png", box_plot("figure 4: boundary points", "translation error [m]",
                                 {{"kept", kept.error_m}, {"rejected", rejected.error_m}}, good_m));
 }
@@ -214,15 +219,9 @@ void figure_5(const Scans& apart) {
   heading(
       "Figure 5: fixed and falling reach (scans 8 m apart, 3,000 random points, point to point, 1 m, 50 iterations)");
   const IcpCloud target = plain(apart.target), source = plain(apart.source);
-  const auto row = [&](const char* name, bool falls) {
-    return outcome(name, apart, runs, [&](const Pose& start, std::uint64_t run) {
-      IcpOptions options = paper_icp(run);
-      options.reach_falls = falls;
-      return icp(target, source, start, options);
-    });
-  };
-  const Outcome fixed = row("fixed", false);
-  const Outcome falling = row("falling", true);
+  const Outcome fixed = paper_outcome("fixed", apart, target, source, [](IcpOptions&) {});
+  const Outcome falling =
+      paper_outcome("falling", apart, target, source, [](IcpOptions& options) { options.reach_falls = true; });
   save("figure-5-error.png", box_plot("figure 5: reach", "translation error [m]",
                                       {{"fixed", fixed.error_m}, {"falling", falling.error_m}}, good_m));
   save("figure-5-time.png",

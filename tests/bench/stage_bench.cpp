@@ -4,7 +4,7 @@
 
 #include "core/geometry/statistics.h"
 #include "core/registration/ndt.h"
-#include "core/registration/register_pair.h"
+#include "core/registration/pair_refinement.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/simulated_pair.h"
 

@@ -131,6 +131,55 @@ TEST(Registration, AScanOfAnotherTunnelIsSaidNotGuessed) {
   EXPECT_FALSE(result.accepted);
 }
 
+/// Three stations in a row whose guesses are right, but for one: metres off and turned about.
+RegistrationResult with_wrong_guess(std::size_t wrong) {
+  const RockTunnel rock = sample_rock();
+  std::vector<ScanToPlace> scans;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Pose truth =
+        station(rock.design(), 32.0 + 7.0 * static_cast<double>(i), 10.0 + 50.0 * static_cast<double>(i));
+    const Pose guess = i == wrong ? off(truth, {5.0, 6.0, 0.0}, 200.0) : truth;
+    scans.push_back(scan_to_place(std::string(1, "ABC"[i]), scan_at(rock, truth, i + 1, 100000), guess));
+  }
+  Progress progress;
+  return register_scans(scans, context_along(rock.design().alignment()), {}, progress);
+}
+
+TEST(RegistrationSlow, AWrongGuessIsSetAsideNotItsPairs) {
+  const RockTunnel rock = sample_rock();
+  for (const std::size_t wrong : {1U, 2U}) {
+    const RegistrationResult result = with_wrong_guess(wrong);
+    for (const PairResult& pair : result.pairs)
+      EXPECT_TRUE(pair.used || pair.overlap < 0.15) << pair.source << pair.target << pair.why_not;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Pose truth =
+          station(rock.design(), 32.0 + 7.0 * static_cast<double>(i), 10.0 + 50.0 * static_cast<double>(i));
+      EXPECT_LT(distance_between_m(result.scans[i].local_from_scan, truth), 0.005);
+    }
+    EXPECT_EQ(std::count_if(result.findings.begin(), result.findings.end(),
+                            [&](const Finding& f) {
+                              return f.subject == "scan " + result.scans[wrong].name &&
+                                     f.words.find("set aside") != std::string::npos;
+                            }),
+              1);
+  }
+}
+
+TEST(Registration, WithNeitherControlNorGuessItDoesNotStandInTheSite) {
+  const RockTunnel rock = sample_rock();
+  const Pose pose = station(rock.design(), 36.0, 10.0);
+  std::vector<ScanToPlace> scans{scan_to_place("A", scan_at(rock, pose, 1, 20000), pose)};
+  Progress progress;
+  const RegistrationContext context = context_along(rock.design().alignment());
+  EXPECT_TRUE(register_scans(scans, context, {}, progress).in_site);
+  scans[0].local_from_scan_guess.reset();
+  const RegistrationResult alone = register_scans(scans, context, {}, progress);
+  EXPECT_FALSE(alone.in_site);
+  EXPECT_FALSE(alone.accepted);
+  EXPECT_EQ(alone.datum_scan, "A");
+  EXPECT_TRUE(register_scans(scans, {}, {}, progress).accepted);  // without a design there is nothing to be wrong about
+}
+
 /// One scan with so many targets, the first off its control point.
 RegistrationResult with_targets(int targets, const Eigen::Vector3d& first_off_m) {
   const RockTunnel rock = sample_rock();
@@ -170,7 +219,14 @@ TEST(Registration, ATargetThatFailsTheBlunderTestIsSaid) {
       with_targets(6, {0.0, 0.0, 0.014});  // its residual is under five sigma: no contradiction
   EXPECT_EQ(decisions(wrong), 1);
   EXPECT_FALSE(wrong.accepted);
-  EXPECT_GT(wrong.control.front().normalised, 4.0);
+  EXPECT_GT(wrong.control.front().normalised, wrong_normalised);
+}
+
+TEST(Registration, ABlunderAcrossAllAxesIsMeasuredInSpace) {
+  // 7 mm on each axis: every axis by itself would pass.
+  const RegistrationResult wrong = with_targets(6, {0.0075, 0.0075, 0.0075});
+  EXPECT_GT(wrong.control.front().normalised, wrong_normalised);
+  EXPECT_FALSE(wrong.accepted);
 }
 
 TEST(Registration, ATargetWithoutControlPointIsRefused) {

@@ -6,6 +6,7 @@
 #include "core/geometry/pose_step.h"
 #include "core/registration/loops.h"
 #include "core/registration/observability.h"
+#include "core/registration/scale_check.h"
 
 namespace adit {
 namespace {
@@ -126,6 +127,49 @@ TEST(Observability, ACorridorIsUnknownAlongAndOnlyAlong) {
 TEST(Observability, ACircularTubeIsUnknownAlongAndInRoll) {
   const PairInformation known = judged(tube(0.003, 1), tube(0.003, 50, stood));
   EXPECT_EQ(undetermined(known), (std::vector<std::string>{"along", "roll"}));
+}
+
+TEST(Observability, AWallWithoutNoiseIsNotKnownAlongItself) {
+  const std::vector<Patch> wall{{{0.1, 5.0, 0.3}, {0, 1, 0}}};
+  const PairInformation known = judged(surface_of(wall, 0.0, 1), surface_of(wall, 0.0, 50, stood));
+  EXPECT_EQ(undetermined(known), (std::vector<std::string>{"along", "up", "pitch"}));
+}
+
+TEST(Observability, OnePlaceAloneTellsNothingOfItsOwnErrors) {
+  const Random random(4);
+  std::vector<SurfaceMatch> matches(300);
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const auto number = [&](std::uint64_t k) { return random.uniform(10 * i + k, 0.1, 0.9); };
+    matches[i].arm = Eigen::Vector3d(number(0), number(1), number(2));  // all in one cube of a metre
+    matches[i].normal = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(i % 3));
+    matches[i].residual_m = 0.002 * random.normal(i);
+  }
+  for (const std::size_t count : {matches.size(), least_matches - 1}) {
+    const PairInformation known =
+        judge_observability(std::span(matches).first(count), 0.02, tunnel_axes({1, 0, 0}), {}, {});
+    EXPECT_EQ(undetermined(known).size(), 6U) << count;
+    EXPECT_TRUE(known.information.allFinite());
+    EXPECT_GE(known.sigma.along_m, 1.0);
+  }
+}
+
+TEST(ScaleCheck, FindsHowMuchLargerAScanIs) {
+  for (const double scale : {1.0, 1.002}) {
+    std::vector<Eigen::Vector3f> points;
+    std::uint64_t seed = 60;
+    for (const Patch& patch : room) add_patch(points, patch.middle, patch.normal, 0.003, seed++);
+    points = seen_from(stood, points);
+    for (auto& p : points) p *= static_cast<float>(scale);
+    Progress progress;
+    const SurfaceMap source = map_of(points);
+    const ScaleCheck check =
+        check_scale(surface_matches(surface_of(room, 0.003, 1), source.pieces(), stood, progress), 0.05);
+    EXPECT_NEAR(check.scale, 1.0 / scale, 1e-4);
+    EXPECT_NEAR(check.scale, 1.0 / scale, 4.0 * check.sigma);
+    EXPECT_GT(check.sigma, 1e-6);
+    EXPECT_LT(check.sigma, 1e-4);
+  }
+  EXPECT_EQ(check_scale({}, 0.05).sigma, 0.0);
 }
 
 TEST(Observability, HeldDirectionsStayAtTheGuess) {

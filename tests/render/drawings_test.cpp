@@ -125,7 +125,7 @@ TEST(PlanDrawing, LooksAsItShould) {
   draw_plan(canvas, {2, 2, 136, 56}, plan);
   EXPECT_TRUE(tests::like_golden(canvas.finish_picture(), "plan"));
   draw_plan(canvas, {2, 2, 136, 56}, {});
-  draw_plan(canvas, {2, 2, 136, 56}, {{}, {{"S1", {612353.0, 6998772.0}}}, {}});
+  draw_plan(canvas, {2, 2, 136, 56}, {{}, {{"S1", {612353.0, 6998772.0}}}, {}, {}});
 }
 
 TEST(RegistrationDrawing, ShowsTheWorstPairsFirst) {

@@ -1,0 +1,87 @@
+#include "core/registration/alike_along.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/registration/found_place.h"
+#include "core/registration/scan_pairs.h"
+#include "tests/core/ribbed_tunnel.h"
+
+namespace adit {
+namespace {
+
+const Pose first = make_pose({0.13, 0.0, -1.0}, {0.3, 0.01, 0.0});
+const Pose second = make_pose({8.13, 0.2, -1.0}, {1.1, 0.0, 0.01});
+const Eigen::Vector3d axis = first.linear().transpose() * Eigen::Vector3d::UnitX();
+
+struct TwoScans {
+  PreparedScan target, source;
+};
+TwoScans scans_of(const tests::RibbedTunnel& tunnel) {
+  Progress progress;
+  const auto prepared = [&](const char* name, const Pose& pose, std::uint64_t seed) {
+    return prepare_scan(name, CloudTiles(tunnel.scan(pose, 150000, seed)), 0.1, 0.6, 45.0, progress);
+  };
+  return {prepared("A", first, 1), prepared("B", second, 2)};
+}
+
+/// The pair, guessed so far along; and its error in the tunnel's axes.
+struct Matched {
+  PairResult pair;
+  Eigen::Vector3d error_m;
+};
+Matched matched(const TwoScans& scans, double guess_off_m) {
+  Progress progress;
+  const Pose truth = first.inverse() * second;
+  const Pose guess = Eigen::Translation3d(guess_off_m * axis) * truth;
+  Matched result;
+  result.pair = matched_pair(scans.target, scans.source, guess, Start::guess, axis, {}, progress);
+  result.error_m = first.linear() * (result.pair.target_from_source.translation() - truth.translation());
+  return result;
+}
+
+TEST(AlikeAlongSlow, RibsAloneDoNotTellWhichIsWhich) {
+  const TwoScans scans = scans_of({});
+  std::size_t alike = 0;
+  for (const double off_m : {0.3, -0.4, -0.7}) {
+    const Matched found = matched(scans, off_m);
+    EXPECT_EQ(found.pair.undetermined, (std::vector<std::string>{"along"}));
+    if (found.pair.alike_m != 0.0) {
+      EXPECT_NEAR(std::remainder(found.pair.alike_m, 1.1), 0.0, 0.05) << found.pair.alike_m;
+      EXPECT_GT(std::abs(found.pair.alike_m), 1.0);
+      EXPECT_NEAR(std::remainder(found.error_m.x(), 1.1), 0.0, 0.02);  // it stays where ribs meet ribs
+    } else {
+      EXPECT_NEAR(found.error_m.x(), off_m, 1e-6);  // too little stands out of the noise: as the guess
+    }
+    EXPECT_LT(found.error_m.tail<2>().norm(), 0.001);
+    EXPECT_GE(found.pair.sigma.along_m, 0.5);  // as the guess
+    alike += found.pair.alike_m != 0.0 ? 1 : 0;
+  }
+  EXPECT_GE(alike, 1U);
+  Progress progress;
+  EXPECT_EQ(found_place(scans.target, scans.source, {}, progress).outcome, SearchOutcome::alike_elsewhere);
+}
+
+TEST(AlikeAlongSlow, RockBetweenTheRibsTells) {
+  tests::RibbedTunnel tunnel;
+  tunnel.roughness_m = 0.05;
+  const TwoScans scans = scans_of(tunnel);
+  for (const double off_m : {0.3, -0.7}) {
+    const Matched found = matched(scans, off_m);
+    EXPECT_TRUE(found.pair.undetermined.empty());
+    EXPECT_EQ(found.pair.alike_m, 0.0);
+    EXPECT_LT(found.error_m.norm(), 0.002);
+  }
+}
+
+TEST(AlikeAlongSlow, ARoughLiningIsFoundWhereTheTransformDrifts) {
+  // Nothing longer than half a metre: coarse cells see a smooth tube and drift along it by metres.
+  const TwoScans scans = scans_of({.rib_m = 0.0, .roughness_m = 0.03});
+  const Matched found = matched(scans, 0.6);
+  EXPECT_TRUE(found.pair.undetermined.empty());
+  EXPECT_LT(found.error_m.norm(), 0.002);
+}
+
+}  // namespace
+}  // namespace adit
