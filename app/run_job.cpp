@@ -101,9 +101,15 @@ void create_folder(const fs::path& folder) {
                                                        : "choose another with --out");
 }
 
+/// A simulated job against its truth, unless it stands in a frame of its own.
+void compare_where_it_stands(JobState& state) {
+  if (state.truth && state.results.registration.in_site)
+    state.results.truth = compare_with_truth(state.results, *state.truth);
+}
+
 /// One step, or what an earlier run left of it. False when it is stale and nothing may run.
 bool do_step(JobState& state, const Step& step, const RunOptions& options, Progress& progress) {
-  if (step.name == "report" && state.truth) state.results.truth = compare_with_truth(state.results, *state.truth);
+  if (step.name == "report") compare_where_it_stands(state);
   const std::string key = io::sha256_of_bytes(step.depends_on(state));
   state.keys[step.name] = key;
   const auto start = Clock::now();
@@ -170,7 +176,7 @@ std::shared_ptr<JobState> run_job(const fs::path& job_file, const RunOptions& op
     if (step.name == options.last_step) present.only_take_up = true;  // what later steps left may still hold
   }
   state->results.earlier = stale_files(*state, steps, done);
-  if (state->truth && !state->results.truth) state->results.truth = compare_with_truth(state->results, *state->truth);
+  if (!state->results.truth) compare_where_it_stands(*state);
   state->results.peak_memory_bytes = peak_memory_bytes();
   if (!options.only_take_up) write_results(*state);
   return state;

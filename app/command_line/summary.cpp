@@ -36,7 +36,7 @@ void add_registration(std::string& text, const Results& results) {
     if (std::isfinite(pair.median_m) && std::isfinite(pair.median_distance_m))
       add(text, ", median residual %.1f mm, median distance %.1f mm", 1e3 * pair.median_m,
           1e3 * pair.median_distance_m);
-    text += pair.used ? "\n" : " (not used)\n";
+    text += pair.used ? "\n" : " (not used: " + pair.why_not + ")\n";
   }
   if (!registration.control.empty())
     add(text, "  control: %zu targets, rms %.1f mm per axis\n", registration.control.size(),

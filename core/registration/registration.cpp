@@ -135,6 +135,24 @@ std::vector<LoopClosure> loop_closures(const PoseGraph& before, const PoseGraph&
   return closures;
 }
 
+/// Where neither a guess nor the targets of any one scan tell, the targets of all scans together may. False, and
+/// without control, where nothing does: the nodes then stand in a frame of their own.
+bool stand_in_site(std::vector<Node>& nodes) {
+  if (std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.by != Node::By::search; })) return true;
+  std::vector<Eigen::Vector3d> seen, points;
+  for (const Node& node : nodes)
+    for (const GraphControl& control : node.control) {
+      seen.push_back(node.start * control.in_scan);
+      points.push_back(control.in_local);
+    }
+  const auto site_from_group = fit_rigid(seen, points);
+  for (Node& node : nodes) {
+    if (site_from_group) node.start = *site_from_group * node.start;
+    if (!site_from_group) node.control.clear();
+  }
+  return site_from_group.has_value();
+}
+
 }  // namespace
 
 RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const RegistrationContext& known,
@@ -150,7 +168,7 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   const std::vector<PreparedScan> prepared = prepare_scans(scans, options, preparing);
   Progress placing = progress.part(0.4, "placing scans");
   std::vector<Node> nodes = starting_nodes(scans, prepared, known, options, result.findings, placing);
-  result.in_site = std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.by != Node::By::search; });
+  result.in_site = stand_in_site(nodes);
   RegistrationContext context = known;
   if (!result.in_site) context.axis_direction = nullptr;  // the design's axis lies in the site
   const std::vector<Candidate> candidates = candidate_pairs(nodes, options);

@@ -139,7 +139,7 @@ struct RegistrationResult {
   /// datum: zero with control; without, what the guess of the datum scan is worth (position, and direction over half
   /// the span).
   double datum_sigma_m = 0.0;
-  /// The scan whose pose the survey hangs on where no scan has three targets; empty with control.
+  /// The scan whose pose the survey hangs on without control; empty with it.
   std::string datum_scan;
   /// False where nothing ties the survey to the site, neither control nor a guess: poses are in the datum scan's frame.
   bool in_site = true;

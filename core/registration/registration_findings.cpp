@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "core/foundation/angle.h"
 #include "core/geometry/pose_step.h"
@@ -86,11 +87,10 @@ void report_pairs(RegistrationResult& result, const RegistrationOptions& options
            "survey targets, or state in registration.guess_sigma_m how well the poses are known"});
     }
     if (is_other_scale(pair)) {
-      std::snprintf(words, sizeof words, "%s shows everything %.2f per mille %s than %s does (sigma %.2f)",
-                    pair.source.c_str(), 1e3 * std::abs(pair.scale - 1.0), pair.scale > 1.0 ? "smaller" : "larger",
-                    pair.target.c_str(), 1e3 * pair.scale_sigma);
+      std::snprintf(words, sizeof words, " shows everything %.2f per mille %s (sigma %.2f) than ",
+                    1e3 * std::abs(pair.scale - 1.0), pair.scale > 1.0 ? "smaller" : "larger", 1e3 * pair.scale_sigma);
       result.findings.push_back(
-          {Severity::decision, subject, words,
+          {Severity::decision, subject, pair.source + words + pair.target,
            "check both files' units and the scanners' corrections: volumes err by three times that"});
     }
   }
@@ -202,13 +202,16 @@ void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, con
                                "survey three targets, or give one scan a pose in job.json"});
     return;
   }
-  if (std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.control.size() >= least_targets; })) return;
+  std::set<std::string> points;
+  for (const Node& node : nodes)
+    for (const GraphControl& control : node.control) points.insert(control.id);
+  if (points.size() >= least_targets) return;
   double span_m = 0.0;
   for (const Node& node : nodes) span_m = std::max(span_m, distance_between_m(node.start, nodes.front().start));
   result.datum_sigma_m = std::hypot(options.guess_sigma_m, 0.5 * span_m * rad_from_deg(options.guess_sigma_deg));
   if (!context.axis_direction || result.datum_sigma_m <= options.undetermined_sigma_m) return;
   const std::string by = result.datum_scan.empty()
-                             ? "guesses of its scans say, for none has three targets"
+                             ? "guesses of its scans say, for there are not three targets"
                              : "the guess of scan " + result.datum_scan + " says, for there is no control";
   char words[120];
   std::snprintf(words, sizeof words, " (sigma %.0f mm), and so do overbreak and underbreak",

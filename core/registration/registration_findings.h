@@ -26,8 +26,8 @@ void name_undetermined(PlacedScan& scan, const Node& node, const RegistrationOpt
 void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,
                         Findings& findings);
 
-/// Where no scan has three targets the place of the whole survey is only as good as the guess of its datum scan, and so
-/// is every number against a design.
+/// With fewer than three targets in all the place of the whole survey is only as good as the guess of its datum scan,
+/// and so is every number against a design.
 void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,
                  const RegistrationOptions& options);
 

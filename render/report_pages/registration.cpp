@@ -104,9 +104,13 @@ void add_scans(PageFlow& flow, const Results& results) {
          TableCell(joined(scan.undetermined), colours::red, true)});
   }
   flow.table(table);
+  const std::string frame = results.registration.in_site ? "Site coordinates"
+                                                         : "Coordinates, in the frame of scan " +
+                                                               results.registration.datum_scan + " and not the site's,";
   flow.paragraph(
-      "Site coordinates of the scanner in metres; one standard deviation along the tunnel, across it and up, and about "
-      "its axes (thousandths of a degree). A direction in red is not known from the clouds or the control; it is held at the guess where there is one.",
+      frame +
+          " of the scanner in metres; one standard deviation along the tunnel, across it and up, and about "
+          "its axes (thousandths of a degree). A direction in red is not known from the clouds or the control; it is held at the guess where there is one.",
       colours::grey, 2.3);
 }
 
@@ -117,18 +121,18 @@ void add_pairs(PageFlow& flow, const Results& results) {
     return;
   }
   flow.subheading("How the pairs fit");
-  Table table{{{"scan", 20, false},
-               {"on", 20, false},
+  Table table{{{"scan", 19, false},
+               {"on", 19, false},
                {"overlap", 13, true},
                {"median mm", 13, true},
-               {"rms mm", 12, true},
-               {"within 6 mm", 15, true},
-               {"along, across, up", 28, true},
-               {"agreeing", 14, true},
-               {"seen through", 16, true},
-               {"scale \xE2\x80\xB0", 13, true},
-               {"iterations", 14, true},
-               {"used", 9, false}},
+               {"rms mm", 11, true},
+               {"within 6 mm", 14, true},
+               {"along, across, up", 27, true},
+               {"agreeing", 15, true},
+               {"seen through", 15, true},
+               {"scale \xE2\x80\xB0", 11, true},
+               {"iterations", 18, true},
+               {"used", 12, false}},
               {},
               2.2};
   for (const PairResult& p : pairs)

@@ -180,6 +180,31 @@ TEST(Registration, WithNeitherControlNorGuessItDoesNotStandInTheSite) {
   EXPECT_TRUE(register_scans(scans, {}, {}, progress).accepted);  // without a design there is nothing to be wrong about
 }
 
+TEST(RegistrationSlow, TargetsOfAllScansTogetherPlaceASurveyThatNobodyGuessed) {
+  const TwoScans two;
+  std::vector<ScanToPlace> scans = two.scans();
+  for (ScanToPlace& scan : scans) scan.local_from_scan_guess.reset();
+  RegistrationContext context = context_along(two.rock.design().alignment());
+  for (int k = 0; k < 4; ++k) {  // two targets in each scan: neither is placed by its own
+    const Eigen::Vector3d place =
+        two.rock.design().alignment().to_site({34.0 + 4.0 * k, k % 2 == 0 ? -3.9 : 3.9, 1.0 + 0.5 * (k % 3)});
+    context.control.push_back({"T" + std::to_string(k), place});
+    const Pose& pose = k < 2 ? two.first : two.second;
+    context.targets.push_back({k < 2 ? "A" : "B", "T" + std::to_string(k), pose.inverse() * place});
+  }
+  Progress progress;
+  const RegistrationResult result = register_scans(scans, context, {}, progress);
+  EXPECT_TRUE(result.in_site);
+  EXPECT_EQ(result.datum_sigma_m, 0.0);
+  EXPECT_TRUE(result.findings.empty()) << result.findings.front().words;
+  EXPECT_LT(distance_between_m(result.scans[0].local_from_scan, two.first), 0.003);
+  EXPECT_LT(distance_between_m(result.scans[1].local_from_scan, two.second), 0.003);
+  context.targets.resize(1);  // one target tells nothing
+  const RegistrationResult alone = register_scans(scans, context, {}, progress);
+  EXPECT_FALSE(alone.in_site);
+  EXPECT_TRUE(alone.control.empty());
+}
+
 /// One scan with so many targets, the first off its control point.
 RegistrationResult with_targets(int targets, const Eigen::Vector3d& first_off_m) {
   const RockTunnel rock = sample_rock();
