@@ -52,6 +52,14 @@ Pose aligned_across(const PreparedScan& target, const PreparedScan& source, cons
   return ndt_align(target.pyramid, source.pyramid, guess, ndt, progress).target_from_source;
 }
 
+/// Where near the guess a pair fits best, if not where the transform ended.
+LikestPlace likest_near(const PreparedScan& target, const PreparedScan& source, const Pose& place,
+                        const AlongSearch& search, const RegistrationOptions& options, Progress& progress) {
+  const bool drifted = std::abs(shift_along_m(search.guess, place, search.axis)) > search.reach_m;
+  const Pose base = drifted ? aligned_across(target, source, search.guess, search.axis, options, progress) : place;
+  return likest_along(target, source, place, base, search, options, progress);
+}
+
 /// A pose, judged by the surfaces that meet there.
 struct Judged {
   std::vector<SurfaceMatch> matches;
@@ -155,11 +163,8 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
     pair.iterations = alignment.iterations;
   }
   if (start != Start::surveyed) {
-    const AlongSearch search{axis_in_target, guess,
-                             start == Start::found ? found_reach_m : 3.0 * options.guess_sigma_m};
-    const bool drifted = std::abs(shift_along_m(guess, pose, axis_in_target)) > search.reach_m;
-    const Pose base = drifted ? aligned_across(target, source, guess, axis_in_target, options, last) : pose;
-    const LikestPlace likest = likest_along(target, source, pose, base, search, options, last);
+    const double reach_m = start == Start::found ? found_reach_m : 3.0 * options.guess_sigma_m;
+    const LikestPlace likest = likest_near(target, source, pose, {axis_in_target, guess, reach_m}, options, last);
     pose = likest.target_from_source;
     pair.alike_m = likest.alike_m;
   }

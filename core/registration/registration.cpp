@@ -75,9 +75,12 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
   const auto tied = tied_nodes(nodes, candidates, result.pairs, graph.datum);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     PlacedScan& scan = result.scans[nodes[i].scan];
-    bool has_pairs = false;
-    for (std::size_t k = 0; k < candidates.size(); ++k)
-      has_pairs = has_pairs || (result.pairs[k].used && (candidates[k].source == i || candidates[k].target == i));
+    bool has_pairs = false, knows_all = true;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (!result.pairs[k].used || (candidates[k].source != i && candidates[k].target != i)) continue;
+      has_pairs = true;
+      knows_all = knows_all && result.pairs[k].undetermined.empty();
+    }
     scan.placed = true;
     scan.local_from_scan = solved.local_from_scan[i];
     scan.sigma = sigma_in_axes(result.sigma_factor * result.sigma_factor * solved.covariance[i],
@@ -88,7 +91,8 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
                                  "no overlap and no control ties it to the other scans; it stands at its guess",
                                  "check its guess, or survey three targets"});
     }
-    name_undetermined(scan, nodes[i], options, result.findings);
+    const bool held = nodes[i].by == Node::By::guess && !(has_pairs && knows_all);
+    name_undetermined(scan, held, options, result.findings);
     compare_with_guess(scan, nodes[i], options, result.findings);
   }
 }

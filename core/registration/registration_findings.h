@@ -19,8 +19,8 @@ void report_contradictions(RegistrationResult& result, const Adjustment& adjustm
 void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved,
                     const PoseGraph& graph, const std::vector<Node>& nodes, const RegistrationOptions& options);
 
-/// Directions of a scan whose sigma is too great to be called known.
-void name_undetermined(PlacedScan& scan, const Node& node, const RegistrationOptions& options, Findings& findings);
+/// Directions of a scan whose sigma is too great to be called known. held: at its guess, by pairs that do not tell.
+void name_undetermined(PlacedScan& scan, bool held, const RegistrationOptions& options, Findings& findings);
 
 /// A scan that ended far from its guess: the guess was wrong, or the match is.
 void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,

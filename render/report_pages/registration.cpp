@@ -110,7 +110,7 @@ void add_scans(PageFlow& flow, const Results& results) {
   flow.paragraph(
       frame +
           " of the scanner in metres; one standard deviation along the tunnel, across it and up, and about "
-          "its axes (thousandths of a degree). A direction in red is not known from the clouds or the control; it is held at the guess where there is one.",
+          "its axes (thousandths of a degree). A direction in red is known too weakly, or not at all and then held at the guess where there is one.",
       colours::grey, 2.3);
 }
 
