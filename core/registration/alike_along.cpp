@@ -26,7 +26,7 @@ struct PlaceAlong {
   Pose target_from_source;
   double along_m = 0.0;  ///< from the guess
   double likeness = 0.0;
-  double worth = 0.0;     ///< of FitCheck
+  FitCheck fit;
   double spread_m = 0.0;  ///< of the residuals
 };
 
@@ -125,7 +125,7 @@ std::vector<PlaceAlong> places_along(const PreparedScan& target, const PreparedS
     const double along_m = shift_along_m(search.guess, pose, search.axis);
     if (is_new(along_m))
       places.push_back(
-          {pose, along_m, likeness_at(fine_target, fine_source, pose, search.axis, near_m, tight_pieces), 0.0, 0.0});
+          {pose, along_m, likeness_at(fine_target, fine_source, pose, search.axis, near_m, tight_pieces), {}, 0.0});
   };
   add(place);
   const double base_m = shift_along_m(search.guess, base, search.axis);
@@ -142,30 +142,37 @@ std::vector<PlaceAlong> places_along(const PreparedScan& target, const PreparedS
   return places;
 }
 
-/// Those that fit as well as the best one does.
-std::vector<PlaceAlong> the_likest(const PreparedScan& target, const PreparedScan& source,
-                                   std::vector<PlaceAlong> places, Progress& progress) {
-  const auto by = [](double PlaceAlong::*number) {
-    return [number](const PlaceAlong& a, const PlaceAlong& b) { return a.*number < b.*number; };
-  };
-  const auto most = [&](double PlaceAlong::*number) {
-    return (*std::max_element(places.begin(), places.end(), by(number))).*number;
-  };
-  const double likeness = most(&PlaceAlong::likeness);
-  if (likeness < least_likeness) return {places.front()};  // nothing tells: it is for others to say that
-  std::erase_if(places, [&](const PlaceAlong& one) { return one.likeness < like * likeness; });
-  if (places.size() == 1) return places;
+void judge(std::vector<PlaceAlong>& places, const PreparedScan& target, const PreparedScan& source,
+           Progress& progress) {
   const double fine_m = piece_of(target, source);
   for (PlaceAlong& one : places) {
-    one.worth = check_fit(target, source, one.target_from_source).worth();
+    one.fit = check_fit(target, source, one.target_from_source);
     one.spread_m = tukey_reach_m(
         surface_matches(target.surface(fine_m), source.surface(fine_m).pieces(), one.target_from_source, progress),
         fine_m);
   }
-  const double worth = most(&PlaceAlong::worth);
-  std::erase_if(places, [&](const PlaceAlong& one) { return one.worth < worth - least_lead; });
-  const double spread_m = std::min_element(places.begin(), places.end(), by(&PlaceAlong::spread_m))->spread_m;
-  std::erase_if(places, [&](const PlaceAlong& one) { return one.spread_m > clearly_wider * spread_m; });
+}
+
+/// Those that fit as well as the best one does. A place beyond reach is no measure for those within that agree: it may
+/// be where the transform drifted to, the more alike as it overlaps more.
+std::vector<PlaceAlong> the_likest(std::vector<PlaceAlong> places, double reach_m) {
+  const auto is_near = [&](const PlaceAlong& one) { return std::abs(one.along_m) <= reach_m && one.fit.agrees(); };
+  const bool any_near = std::any_of(places.begin(), places.end(), is_near);
+  const auto best_of = [&](const auto& number) {
+    double best = -1e300;
+    for (const PlaceAlong& one : places)
+      if (!any_near || is_near(one)) best = std::max(best, number(one));
+    return best;
+  };
+  const auto likeness = [](const PlaceAlong& one) { return one.likeness; };
+  const auto worth = [](const PlaceAlong& one) { return one.fit.worth(); };
+  const auto tightness = [](const PlaceAlong& one) { return 1.0 / one.spread_m; };
+  const double least_alike = like * best_of(likeness);
+  std::erase_if(places, [&](const PlaceAlong& one) { return one.likeness < least_alike; });
+  const double least_worth = best_of(worth) - least_lead;
+  std::erase_if(places, [&](const PlaceAlong& one) { return worth(one) < least_worth; });
+  const double least_tightness = best_of(tightness) / clearly_wider;
+  std::erase_if(places, [&](const PlaceAlong& one) { return tightness(one) < least_tightness; });
   return places;
 }
 
@@ -177,16 +184,22 @@ double shift_along_m(const Pose& from, const Pose& to, const Eigen::Vector3d& ax
 
 LikestPlace likest_along(const PreparedScan& target, const PreparedScan& source, const Pose& place, const Pose& base,
                          const AlongSearch& search, const RegistrationOptions& options, Progress& progress) {
-  std::vector<PlaceAlong> places =
-      the_likest(target, source, places_along(target, source, place, base, search, options, progress), progress);
+  std::vector<PlaceAlong> places = places_along(target, source, place, base, search, options, progress);
+  const double likeness = std::max_element(places.begin(), places.end(), [](const PlaceAlong& a, const PlaceAlong& b) {
+                            return a.likeness < b.likeness;
+                          })->likeness;
+  if (likeness < least_likeness || places.size() == 1) return {place, 0.0, {}};  // nothing tells: for others to say
+  judge(places, target, source, progress);
+  places = the_likest(std::move(places), search.reach_m);
   const auto nearer = [](double m) {
     return [m](const PlaceAlong& a, const PlaceAlong& b) { return std::abs(a.along_m - m) < std::abs(b.along_m - m); };
   };
   std::sort(places.begin(), places.end(), nearer(0.0));
   const PlaceAlong& chosen = places.front();
-  if (places.size() == 1) return {chosen.target_from_source, 0.0};
+  if (places.size() == 1) return {chosen.target_from_source, 0.0, {}};
   const auto next = std::min_element(places.begin() + 1, places.end(), nearer(chosen.along_m));
-  return {chosen.target_from_source, next->along_m - chosen.along_m};
+  return {chosen.target_from_source, next->along_m - chosen.along_m,
+          slide_between(chosen.target_from_source, next->target_from_source, search.axis)};
 }
 
 }  // namespace adit

@@ -22,6 +22,7 @@ NormalDistribution distribution_of(const CellSums& sums, const DistributionOptio
   const Eigen::Vector3d values = axes.eigenvalues().cwiseMax(0.0);
   result.normal = axes.eigenvectors().col(0);
   result.thickness_m = std::sqrt(values[0]);
+  result.bend = values[1] > 0.0 ? values[0] / values[1] : 1.0;
   result.flat = values[0] < 0.2 * values[1] && values[1] > 0.05 * values[2];
   result.covariance =
       axes.eigenvectors() * axes.eigenvalues().cwiseMax(least).asDiagonal() * axes.eigenvectors().transpose();

@@ -19,6 +19,7 @@ struct NormalDistribution {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();     ///< of the plane through the points; either way
   double thickness_m = 0.0;                              ///< sigma of the points about that plane, as measured
   bool flat = false;                                     ///< the points are a piece of surface
+  double bend = 1.0;                                     ///< variance off the plane over the lesser one within it
 };
 
 struct DistributionOptions {

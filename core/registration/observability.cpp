@@ -12,6 +12,7 @@ namespace adit {
 namespace {
 
 constexpr std::size_t directions = 6;
+constexpr int along = 0;
 constexpr double unknown_m = 10.0;  // variances of 100 m2 tell nothing and keep the inverse well conditioned
 
 /// Symmetric matrix with eigenvalues no smaller than floor.
@@ -48,18 +49,32 @@ struct Known {
   double robust_share;                       ///< of the hessian that counts with Tukey's weights
 };
 
-/// Sum of g g^T, each cube's gradient as it would be had the cube not pulled the solution towards itself: its residuals
-/// are too small by that (Bell and McCaffrey 2002, the jackknife's CR3).
-Eigen::MatrixXd gradient_covariance(const std::vector<CubeSums>& cubes, const Eigen::MatrixXd& signal,
-                                    double robust_share, const std::vector<Eigen::Index>& free) {
+/// The covariance S^-1 (sum of f f^T) S^-1 with f each cube's gradient as it would be had the cube not pulled the
+/// solution towards itself: its residuals are too small by that (Bell and McCaffrey 2002, the jackknife's CR3). A cube
+/// that holds nearly all there is of a direction leaves nothing to measure its error by: unknown.
+Eigen::MatrixXd jackknife_covariance(const std::vector<CubeSums>& cubes, const Eigen::MatrixXd& signal,
+                                     double robust_share, const std::vector<Eigen::Index>& free) {
+  constexpr double all_there_is = 0.98;
   const auto size = signal.rows();
-  const Eigen::MatrixXd inverse = signal.inverse();
+  const Eigen::MatrixXd lower = signal.llt().matrixL();
+  const Eigen::MatrixXd whiten = lower.inverse();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size, size);
   for (const CubeSums& cube : cubes) {
-    const Eigen::MatrixXd others =
-        Eigen::MatrixXd::Identity(size, size) - robust_share * cube.hessian(free, free) * inverse;
-    const Eigen::VectorXd gradient = others.partialPivLu().solve(Eigen::VectorXd(cube.gradient(free)));
-    sum += gradient * gradient.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> shares(robust_share * whiten * cube.hessian(free, free) *
+                                                                whiten.transpose());
+    const Eigen::MatrixXd moves = whiten.transpose() * shares.eigenvectors();
+    const Eigen::VectorXd pulls = moves.transpose() * Eigen::VectorXd(cube.gradient(free));
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const double share = shares.eigenvalues()[i];
+      if (share < all_there_is) {
+        moved += pulls[i] / (1.0 - share) * moves.col(i);
+        continue;
+      }
+      const Eigen::VectorXd direction = moves.col(i) / moves.col(i).lpNorm<Eigen::Infinity>();
+      sum += unknown_m * unknown_m * direction * direction.transpose();
+    }
+    sum += moved * moved.transpose();
   }
   return sum;
 }
@@ -69,16 +84,14 @@ Eigen::MatrixXd covariance_of(const Known& known, const std::vector<Eigen::Index
   const Eigen::MatrixXd hessian = known.hessian(free, free);
   const Eigen::MatrixXd signal =
       floored(known.robust_share * hessian - known.noise(free, free), 1e-9 * hessian.trace());
-  const Eigen::MatrixXd inverse = signal.inverse();
   std::vector<Eigen::MatrixXd> by_size(known.cubes.size());
   const auto measure = [&](std::size_t i) {
-    by_size[i] = inverse * gradient_covariance(known.cubes[i], signal, known.robust_share, free) * inverse;
+    by_size[i] = jackknife_covariance(known.cubes[i], signal, known.robust_share, free);
   };
   parallel_for_each_index(by_size.size(), measure, 1);
   Eigen::MatrixXd worst = Eigen::MatrixXd::Zero(hessian.rows(), hessian.cols());
   for (const Eigen::MatrixXd& covariance : by_size) {
-    // One cube that holds all there is of a direction leaves nothing to measure its error by.
-    if (!covariance.allFinite())
+    if (!covariance.allFinite())  // no hessian at all
       return unknown_m * unknown_m * Eigen::MatrixXd::Identity(hessian.rows(), hessian.rows());
     if (covariance.trace() > worst.trace()) worst = covariance;
   }
@@ -144,6 +157,21 @@ Weakness weakest_of(const Known& known, const std::vector<Eigen::Index>& free, c
   return weakest;
 }
 
+/// A metre in a held direction, the free ones following as the surfaces ask.
+Vector6d way_of(const Known& known, const std::vector<Eigen::Index>& free, Eigen::Index direction) {
+  Vector6d way = Vector6d::Unit(direction);
+  if (free.empty()) return way;
+  const Matrix6d signal = known.robust_share * known.hessian - known.noise;
+  const Eigen::VectorXd coupling = signal.col(direction)(free);
+  way(free) = -floored(signal(free, free), 1e-9 * known.hessian.trace()).ldlt().solve(coupling);
+  return way;
+}
+
+/// Sigma of what a tangent leaves out of a curve: half the curvature times the root mean square of the way's square.
+double bend_m(const Vector6d& way_along, double lever_m, double guess_sigma_m) {
+  return 0.5 * std::sqrt(3.0) * way_along.tail<3>().norm() / lever_m * guess_sigma_m * guess_sigma_m;
+}
+
 double& sigma_of(PoseSigma& sigma, std::size_t direction) {
   double* const members[] = {&sigma.along_m,  &sigma.across_m,  &sigma.up_m,
                              &sigma.roll_rad, &sigma.pitch_rad, &sigma.yaw_rad};
@@ -191,9 +219,24 @@ Vector6d step_without(const NormalEquations& equations, const HeldDirections& he
   return -columns * damped.ldlt().solve(columns.transpose() * equations.gradient);
 }
 
+Slide slide_between(const Pose& from, const Pose& to, const Eigen::Vector3d& axis) {
+  const Eigen::Vector3d turn = rotation_vector(to.linear() * from.linear().transpose());
+  const Eigen::Vector3d chord = to.translation() - from.translation();
+  const Eigen::Vector3d tangent = rotation_from_vector(-0.5 * turn) * chord;
+  const double along_m = axis.dot(tangent);
+  return {turn / along_m, tangent / along_m};
+}
+
+Pose slid(const Pose& pose, const Slide& slide, double length_m) {
+  Pose moved = pose;
+  moved.linear() = rotation_from_vector(length_m * slide.turn_rad) * pose.linear();
+  moved.translation() += rotation_from_vector(0.5 * length_m * slide.turn_rad) * (length_m * slide.shift_m);
+  return moved;
+}
+
 PairInformation judge_observability(std::span<const SurfaceMatch> matches, double tukey_m,
                                     const Eigen::Matrix3d& axes_in_target, const ObservabilityLimits& limits,
-                                    const HeldDirections& held) {
+                                    const HeldDirections& held, const std::optional<Slide>& slide) {
   const double lever_m = radius_of_gyration(matches);
   const Matrix6d columns = metres_in(axes_in_target, lever_m);
   const Known known = known_of(matches, tukey_m, columns);
@@ -201,26 +244,33 @@ PairInformation judge_observability(std::span<const SurfaceMatch> matches, doubl
   result.undetermined = held;
   if (matches.size() < least_matches) result.undetermined.fill(true);
   std::vector<Eigen::Index> free = free_of(result.undetermined);
+  Matrix6d ways = Matrix6d::Zero();  // columns: of the undetermined directions
+  for (Eigen::Index i = 0; i < ways.cols(); ++i)
+    if (result.undetermined[static_cast<std::size_t>(i)]) ways.col(i) = way_of(known, free, i);
+  if (result.undetermined[along] && slide)
+    ways.col(along) << axes_in_target * slide->shift_m, lever_m * (axes_in_target * slide->turn_rad);
   Matrix6d covariance = Matrix6d::Zero();
-  Vector6d sigma_m = Vector6d::Constant(unknown_m);
-  const double least_variance = std::max(1e-14, limits.least_sigma_m * limits.least_sigma_m);
-  for (std::size_t i = 0; i < directions; ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    if (result.undetermined[i]) covariance(at, at) += unknown_m * unknown_m;
-  }
   while (!free.empty()) {
     Eigen::MatrixXd of_free = covariance_of(known, free);
-    of_free.diagonal().array() += least_variance;
+    of_free.diagonal().array() += std::max(1e-14, limits.least_sigma_m * limits.least_sigma_m);
     const Weakness weakest = weakest_of(known, free, of_free, limits.undetermined_sigma_m);
     if (weakest.ratio <= 1.0) {
-      covariance(free, free) += of_free;
-      sigma_m(free) = of_free.diagonal().cwiseMax(0.0).cwiseSqrt();
+      covariance(free, free) = of_free;
       break;
     }
-    result.undetermined[static_cast<std::size_t>(free[weakest.which])] = true;
-    covariance += unknown_m * unknown_m * weakest.direction * weakest.direction.transpose();
+    const Eigen::Index which = free[weakest.which];
+    result.undetermined[static_cast<std::size_t>(which)] = true;
+    ways.col(which) = weakest.direction;
     free.erase(free.begin() + static_cast<std::ptrdiff_t>(weakest.which));
   }
+  result.along = {axes_in_target.transpose() * ways.col(along).tail<3>() / lever_m,
+                  axes_in_target.transpose() * ways.col(along).head<3>()};
+  const double bent_m = bend_m(ways.col(along), lever_m, limits.guess_sigma_m);
+  covariance.diagonal().segment<2>(along + 1).array() += bent_m * bent_m;
+  Vector6d sigma_m = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  for (std::size_t i = 0; i < directions; ++i)
+    if (result.undetermined[i]) sigma_m[static_cast<Eigen::Index>(i)] = unknown_m;
+  covariance += unknown_m * unknown_m * ways * ways.transpose();
   for (std::size_t i = 0; i < directions; ++i)
     sigma_of(result.sigma, i) = sigma_m[static_cast<Eigen::Index>(i)] / (i < 3 ? 1.0 : lever_m);
   const Matrix6d back = columns.inverse();

@@ -2,6 +2,7 @@
 // Which directions do the clouds determine? Covariance in tunnel axes.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,26 +29,42 @@ Pose held_at(const Pose& to, const Pose& target_from_source, const HeldDirection
 /// The Gauss-Newton step of (rotation, translation) that leaves the held directions alone.
 Vector6d step_without(const NormalEquations& equations, const HeldDirections& held, const Eigen::Matrix3d& axes);
 
+/// How a pose moves for a metre along the tunnel: in a curve it turns and leaves the axis. Target's frame.
+struct Slide {
+  Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();  ///< about the source's origin
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();   ///< a metre of it along the axis
+};
+
+/// The tunnel as an arc on which both poses of one scan stand, at the first of them.
+Slide slide_between(const Pose& from, const Pose& to, const Eigen::Vector3d& axis);
+
+/// The pose so far along that arc.
+Pose slid(const Pose& pose, const Slide& slide, double length_m);
+
 /// Information of a pair about (rotation [rad], translation [m]) in the target's frame at the source's origin, and the
 /// directions in which it has none.
 struct PairInformation {
   Matrix6d information = Matrix6d::Zero();  ///< next to nothing along undetermined directions
   PoseSigma sigma;                          ///< 10 m and more in undetermined directions: no number the clouds gave
   HeldDirections undetermined{};
+  Slide along;  ///< where "along" is undetermined: the way a metre of it goes
 };
 
 struct ObservabilityLimits {
   double undetermined_sigma_m = 0.02;
   double least_sigma_m = 0.0;  ///< in each direction, beside what is measured
+  double guess_sigma_m = 0.0;  ///< of what is held
 };
 
 /// Covariance = S^-1 B S^-1 (White 1980) with S the hessian for Tukey's weights less its noise part and B the measured
 /// covariance of the gradient, by cubes of 1, 2 or 4 m, whichever says most: surfaces may be bent by a scanner. A
 /// direction is undetermined when its sigma, all others following (Schur complement), exceeds the limit (rotations: on
 /// the radius of gyration of the matches), or when what is left of its hessian then is not three times what noise alone
-/// makes. The weakest is held first, the others are judged without it. held: directions that are held already.
+/// makes. The weakest is held first, the others are judged without it. held: directions that are held already, and
+/// slide: what follows "along", where the surfaces cannot say it; otherwise they do. Across and up have, beside their
+/// own errors, what a tangent leaves out of a curve when "along" is off by a guess's sigma.
 PairInformation judge_observability(std::span<const SurfaceMatch> matches, double tukey_m,
                                     const Eigen::Matrix3d& axes_in_target, const ObservabilityLimits& limits,
-                                    const HeldDirections& held);
+                                    const HeldDirections& held, const std::optional<Slide>& slide = {});
 
 }  // namespace adit

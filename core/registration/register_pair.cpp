@@ -66,13 +66,28 @@ struct Judged {
   PairInformation known;
 };
 Judged judge(const PreparedScan& target, const PreparedScan& source, const Pose& pose, const Eigen::Matrix3d& axes,
-             const HeldDirections& held, const RegistrationOptions& options, Progress& progress) {
+             const HeldDirections& held, const std::optional<Slide>& slide, const RegistrationOptions& options,
+             Progress& progress) {
   const SurfaceMap& surface = target.surface(piece_of(target, source));
   Judged judged;
   judged.matches = surface_matches(surface, source.surface(surface.cell_m()).pieces(), pose, progress);
-  judged.known = judge_observability(judged.matches, tukey_reach_m(judged.matches, surface.cell_m()), axes,
-                                     {options.undetermined_sigma_m, options.pair_sigma_m}, held);
+  judged.known =
+      judge_observability(judged.matches, tukey_reach_m(judged.matches, surface.cell_m()), axes,
+                          {options.undetermined_sigma_m, options.pair_sigma_m, options.guess_sigma_m}, held, slide);
   return judged;
+}
+
+/// How a pair that is held along the tunnel would move along it: as to where it ends when it is held elsewhere, which
+/// says more than the surfaces at one place.
+Slide slide_of(const PreparedScan& target, const PreparedScan& source, const Pose& pose, const HeldDirections& held,
+               const Slide& estimate, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
+               Progress& progress) {
+  constexpr double farthest_off_m = 0.1;  // farther from where it was to be, it has slipped
+  const double length_m = std::clamp(2.0 * options.guess_sigma_m, 0.5, 2.0);
+  const Pose moved = slid(pose, estimate, length_m);
+  const Pose there = refined(target, source, moved, held, axes, options, progress);
+  if (distance_between_m(moved, there) > farthest_off_m) return estimate;
+  return slide_between(pose, there, axes.row(along).transpose());
 }
 
 /// What is held stands at the guess.
@@ -142,7 +157,7 @@ double overlap_at(const PreparedScan& target, const PreparedScan& source, const 
 PairInformation pair_information(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                                  const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options,
                                  Progress& progress) {
-  return judge(target, source, target_from_source, tunnel_axes(axis_in_target), {}, options, progress).known;
+  return judge(target, source, target_from_source, tunnel_axes(axis_in_target), {}, {}, options, progress).known;
 }
 
 PairResult register_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
@@ -162,13 +177,15 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
     pose = alignment.target_from_source;
     pair.iterations = alignment.iterations;
   }
+  std::optional<Slide> slide;
   if (start != Start::surveyed) {
     const double reach_m = start == Start::found ? found_reach_m : 3.0 * options.guess_sigma_m;
     const LikestPlace likest = likest_near(target, source, pose, {axis_in_target, guess, reach_m}, options, last);
     pose = likest.target_from_source;
     pair.alike_m = likest.alike_m;
+    slide = likest.slide;
   }
-  Judged judged = judge(target, source, pose, axes, {}, options, last);
+  Judged judged = judge(target, source, pose, axes, {}, {}, options, last);
   HeldDirections held = judged.known.undetermined;
   if (held[along]) pair.alike_m = 0.0;  // smooth walls: what is alike there is noise
   // Where it fits elsewhere as well, it stays where the surfaces meet: the adjustment holds it at the guess.
@@ -176,7 +193,11 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   held[along] = held[along] || pair.alike_m != 0.0;
   if (held != HeldDirections{}) {
     pose = refined(target, source, held_at(guess, pose, at_guess, axes), held, axes, options, last);
-    judged = judge(target, source, pose, axes, held, options, last);
+    judged = judge(target, source, pose, axes, held, slide, options, last);
+    if (at_guess[along]) {
+      slide = slide_of(target, source, pose, held, judged.known.along, axes, options, last);
+      judged = judge(target, source, pose, axes, held, slide, options, last);
+    }
   }
   pair.target_from_source = pose;
   pair.sigma = no_worse_than_guess(judged.known.sigma, options);

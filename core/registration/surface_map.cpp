@@ -7,6 +7,9 @@
 namespace adit {
 namespace {
 
+// Of planes: what bends more is the edge of something, which each scanner sees from its own side.
+constexpr double most_bend = 0.08;
+
 /// Zero where there is no surface near.
 Eigen::Vector3d normal_at(const DistributionMap& planes, const Eigen::Vector3d& place) {
   const double reach2 = planes.cell_m() * planes.cell_m();
@@ -15,7 +18,7 @@ Eigen::Vector3d normal_at(const DistributionMap& planes, const Eigen::Vector3d& 
   double least = reach2;
   planes.visit_near(place, [&](const NormalDistribution& plane) {
     const double squared = (plane.mean - place).squaredNorm();
-    if (!plane.flat || squared >= reach2) return;
+    if (!plane.flat || plane.bend > most_bend || squared >= reach2) return;
     sum += near_weight(squared / reach2) * plane.normal * plane.normal.transpose();
     if (squared < least) nearest = plane.normal;
     least = std::min(least, squared);

@@ -8,7 +8,9 @@
 namespace adit {
 namespace {
 
-constexpr double least_facing = 0.7;  // cosine: two faces of one wall, or a corner, are not the same surface
+// Cosine of 32 degrees: two faces of one wall, or a corner that either scanner sees from one side, are not the same
+// surface.
+constexpr double least_facing = 0.85;
 
 /// The derivative of Tukey's weight times residual.
 double tukey_curvature(double residual_m, double reach_m) {

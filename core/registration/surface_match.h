@@ -30,7 +30,7 @@ struct Meeting {
 };
 Meeting meeting_of(const SurfaceMap& target, const SurfacePiece& piece, const Pose& target_from_source);
 
-/// For every source piece with target pieces within one cell that face the same way (45 degrees): the distance to the
+/// For every source piece with target pieces within one cell that face the same way (32 degrees): the distance to the
 /// surface that these make together, with the weights w of near_weight (implicit moving least squares, Kolluri
 /// 2008),
 ///   residual = sum w n . (q - t) / sum w,   n = (n_t + R n_s) / 2,

@@ -34,7 +34,7 @@ TEST(RealJobsData, CorridorRunsToAReportAndItsWallsFallTogether) {
     EXPECT_LT(distance_between_m(found, odometry), 0.06) << scan.name;
     const PoseSigma& sigma = state->results.registration.scans[i].sigma;
     const double known_deg = deg_from_rad(std::hypot(sigma.roll_rad, sigma.pitch_rad, sigma.yaw_rad));
-    EXPECT_LT(deg_from_rad(rotation_between_rad(found, odometry)), 1.5) << scan.name;
+    EXPECT_LT(deg_from_rad(rotation_between_rad(found, odometry)), 1.3) << scan.name;
     EXPECT_LT(known_deg, 0.5) << scan.name;
   }
   // The floor and both walls stand about 2.5 m apart where the corridor is closed.

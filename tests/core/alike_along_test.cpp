@@ -83,5 +83,46 @@ TEST(AlikeAlongSlow, ARoughLiningIsFoundWhereTheTransformDrifts) {
   EXPECT_LT(found.error_m.norm(), 0.002);
 }
 
+TEST(AlikeAlongSlow, InACurveWhatIsHeldAlongTakesTheOthersWithIt) {
+  // Half a metre along is as much as 25 mm across to a target that stands 8 m away in a curve of 100 m, and 0.3
+  // degrees: the pair's information has to admit that, whether rings repeat or nothing tells.
+  for (const double rib_m : {0.15, 0.0}) {
+    const tests::RibbedTunnel tunnel{.rib_m = rib_m, .bend_per_m = 0.01};
+    const Pose one = tunnel.bent(first), other = tunnel.bent(second);
+    Progress progress;
+    const auto prepared = [&](const Pose& pose, std::uint64_t seed) {
+      return prepare_scan("scan", CloudTiles(tunnel.scan(pose, 150000, seed)), 0.1, 0.6, 45.0, progress);
+    };
+    const PreparedScan target = prepared(one, 1), source = prepared(other, 2);
+    const Pose truth = one.inverse() * other;
+    const Eigen::Vector3d along = one.linear().transpose() * rotation_from_vector({0.0, 0.0, 0.0013}).col(0);
+    for (const double off_m : {-0.5, 0.7}) {
+      const PairResult pair =
+          matched_pair(target, source, Eigen::Translation3d(off_m * along) * truth, Start::guess, along, {}, progress);
+      EXPECT_EQ(pair.undetermined, (std::vector<std::string>{"along"}));
+      Vector6d error;
+      error << rotation_vector(pair.target_from_source.linear() * truth.linear().transpose()),
+          pair.target_from_source.translation() - truth.translation();
+      EXPECT_TRUE(pair.alike_m != 0.0 || error.tail<3>().norm() > 0.4);               // as the guess
+      EXPECT_LT(error.dot(pair.information * error), 25.0) << rib_m << " " << off_m;  // chi squared, 6 degrees
+      EXPECT_LT(pair.sigma.across_m, 0.005);                                          // with "along" held
+    }
+  }
+}
+
+TEST(AlikeAlongSlow, OppositeFacesOfARibDoNotPullScansTogether) {
+  // Between the stations each scanner sees its own side of every rib.
+  tests::RibbedTunnel tunnel;
+  tunnel.roughness_m = 0.01;
+  Progress progress;
+  const auto prepared = [&](const Pose& pose, std::uint64_t seed) {
+    return prepare_scan("scan", CloudTiles(tunnel.scan(pose, 400000, seed)), 0.1, 0.6, 45.0, progress);
+  };
+  const Matched found = matched({prepared(first, 1), prepared(second, 2)}, 0.3);
+  EXPECT_TRUE(found.pair.undetermined.empty());
+  EXPECT_LT(std::abs(found.error_m.x()), 0.001);
+  EXPECT_LT(std::abs(found.error_m.x()), 4.0 * found.pair.sigma.along_m);
+}
+
 }  // namespace
 }  // namespace adit

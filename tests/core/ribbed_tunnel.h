@@ -1,5 +1,5 @@
 #pragma once
-// A straight tunnel with ribs: every period it looks the same, but for its roughness.
+// A tunnel with ribs: every period it looks the same, but for its roughness.
 
 #include <Eigen/Core>
 
@@ -14,12 +14,13 @@
 
 namespace adit::tests {
 
-/// Axis along x through the origin, radius 4 m, floor 2.5 m below.
+/// Axis along x through the origin, or an arc that leaves it to the left; radius 4 m, floor 2.5 m below.
 struct RibbedTunnel {
   double rib_m = 0.15;       ///< how far ribs stand out
   double width_m = 0.2;      ///< of a rib
   double period_m = 1.1;     ///< from rib to rib
   double roughness_m = 0.0;  ///< one sigma, in lumps of half a metre
+  double bend_per_m = 0.0;   ///< curvature of the axis
   Random random{77};
 
   double lumps(double u, double v) const {
@@ -34,7 +35,28 @@ struct RibbedTunnel {
            b * ((1 - a) * height(i, j + 1) + a * height(i + 1, j + 1));
   }
 
-  bool is_rock(const Eigen::Vector3d& p) const {
+  /// Along the axis, to the left and up.
+  Eigen::Vector3d straightened(const Eigen::Vector3d& p) const {
+    if (bend_per_m == 0.0) return p;
+    const double radius_m = 1.0 / bend_per_m;
+    return {radius_m * std::atan2(p.x(), radius_m - p.y()), radius_m - std::hypot(p.x(), radius_m - p.y()), p.z()};
+  }
+
+  /// A pose of the straight tunnel, as far along the bent one.
+  Pose bent(const Pose& pose) const {
+    if (bend_per_m == 0.0) return pose;
+    const double turn = pose.translation().x() * bend_per_m;
+    const Eigen::Matrix3d rotation = rotation_from_vector({0.0, 0.0, turn});
+    const Eigen::Vector3d on_axis(std::sin(turn) / bend_per_m, (1.0 - std::cos(turn)) / bend_per_m, 0.0);
+    const Eigen::Vector3d beside(0.0, pose.translation().y(), pose.translation().z());
+    Pose result = pose;
+    result.linear() = rotation * pose.linear();
+    result.translation() = on_axis + rotation * beside;
+    return result;
+  }
+
+  bool is_rock(const Eigen::Vector3d& place) const {
+    const Eigen::Vector3d p = straightened(place);
     const double in_period = p.x() - period_m * std::floor(p.x() / period_m);
     const double radius = in_period < width_m ? 4.0 - rib_m : 4.0;
     const double rough = roughness_m > 0.0 ? roughness_m * lumps(p.x(), 4.0 * std::atan2(p.z(), p.y())) : 0.0;

@@ -13,15 +13,20 @@ namespace {
 
 constexpr double cell_m = 0.2;
 
-/// Points of a plane patch of 8 m around a place, with noise along the normal.
-void add_patch(std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& middle, const Eigen::Vector3d& normal,
-               double noise_m, std::uint64_t seed) {
+/// A plane square.
+struct Patch {
+  Eigen::Vector3d middle, normal;
+  double half_m = 4.0;
+};
+
+/// Points of a patch, with noise along the normal.
+void add_patch(std::vector<Eigen::Vector3f>& points, const Patch& patch, double noise_m, std::uint64_t seed) {
   const Random random(seed);
-  const Eigen::Vector3d u = normal.unitOrthogonal();
-  const Eigen::Vector3d v = normal.cross(u);
+  const Eigen::Vector3d u = patch.half_m * patch.normal.unitOrthogonal();
+  const Eigen::Vector3d v = patch.normal.cross(u);
   for (std::uint64_t i = 0; i < 40000; ++i)
-    points.push_back((middle + random.uniform(3 * i, -4, 4) * u + random.uniform(3 * i + 1, -4, 4) * v +
-                      noise_m * random.normal(100000 + i) * normal)
+    points.push_back((patch.middle + random.uniform(3 * i, -1, 1) * u + random.uniform(3 * i + 1, -1, 1) * v +
+                      noise_m * random.normal(100000 + i) * patch.normal)
                          .cast<float>());
 }
 
@@ -39,14 +44,10 @@ std::vector<Eigen::Vector3f> seen_from(const Pose& pose, std::vector<Eigen::Vect
   return points;
 }
 
-struct Patch {
-  Eigen::Vector3d middle, normal;
-};
-
 SurfaceMap surface_of(const std::vector<Patch>& patches, double noise_m, std::uint64_t seed,
                       const Pose& from = Pose::Identity()) {
   std::vector<Eigen::Vector3f> points;
-  for (const Patch& patch : patches) add_patch(points, patch.middle, patch.normal, noise_m, seed++);
+  for (const Patch& patch : patches) add_patch(points, patch, noise_m, seed++);
   return map_of(seen_from(from, points));
 }
 
@@ -153,11 +154,21 @@ TEST(Observability, OnePlaceAloneTellsNothingOfItsOwnErrors) {
   }
 }
 
+TEST(Observability, WhatOnePlaceAloneHoldsIsUnknownAndNothingElse) {
+  // All that faces along is one small patch: how wrong it is nothing tells. Walls, floor and roof are elsewhere too.
+  std::vector<Patch> tunnel = corridor;
+  tunnel.push_back({{4.6, 0.5, 0.5}, {1, 0, 0}, 0.3});
+  const PairInformation known = judged(surface_of(tunnel, 0.003, 1), surface_of(tunnel, 0.003, 50, stood));
+  EXPECT_EQ(undetermined(known), std::vector<std::string>{"along"});
+  EXPECT_LT(known.sigma.across_m, 0.001);
+  EXPECT_LT(known.sigma.roll_rad, 0.001);
+}
+
 TEST(ScaleCheck, FindsHowMuchLargerAScanIs) {
   for (const double scale : {1.0, 1.002}) {
     std::vector<Eigen::Vector3f> points;
     std::uint64_t seed = 60;
-    for (const Patch& patch : room) add_patch(points, patch.middle, patch.normal, 0.003, seed++);
+    for (const Patch& patch : room) add_patch(points, patch, 0.003, seed++);
     points = seen_from(stood, points);
     for (auto& p : points) p *= static_cast<float>(scale);
     Progress progress;
