@@ -11,7 +11,7 @@ namespace adit::render {
 namespace {
 
 constexpr double pixel_mm = 0.25;
-constexpr double beneath_mm = 9.0;
+constexpr double beneath_mm = 12.5;  // two lines of words
 constexpr double least_width_mm = 90.0;
 
 /// From black over blue and orange to white.
@@ -52,7 +52,7 @@ Picture probability_picture(const ProbabilityImage& image, const std::string& wo
   Canvas canvas = Canvas::raster(paper, height + beneath_mm, 25.4 / pixel_mm);
   canvas.picture(pixels_of(image), {0.0, 0.0, width, height}, false);
   draw_scale_bar(canvas, {2.0, height + 4.8}, pixel_mm / image.pixel_m, 0.25 * paper, 2.6);
-  canvas.text({2.0, height + 5.4}, words, {.size_mm = 2.4, .shorten_mm = paper - 4.0});
+  canvas.text({2.0, height + 5.4}, words, {.size_mm = 2.4, .wrap_mm = paper - 4.0});
   return canvas.finish_picture();
 }
 

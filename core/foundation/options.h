@@ -35,7 +35,7 @@ struct OptionRow {
   std::string help;
 };
 
-/// Short decimal form of a number, the same on every machine ("0.1", "1e-06").
+/// Short decimal form of a number, the same on every machine ("0.1", "0.00002", "1e-12").
 std::string short_number(double value);
 
 /// The visitor that lists options with their present values.

@@ -64,7 +64,9 @@ struct Trial {
 
 std::vector<Trial> trials(const PoseGraph& graph, const Adjustment& adjustment, Progress& progress) {
   std::vector<Trial> tried;
-  for (const Suspect& suspect : all_suspects(graph, adjustment)) {
+  const std::vector<Suspect> suspects = all_suspects(graph, adjustment);
+  for (const Suspect& suspect : suspects) {
+    progress.step(tried.size(), suspects.size());
     Adjustment without = adjustment;
     leave_out(without, suspect);
     PoseGraph part = used_part(graph, without);
@@ -138,10 +140,11 @@ Adjustment adjusted(const PoseGraph& graph, Progress& progress) {
   Adjustment adjustment;
   adjustment.pair_used.assign(graph.pairs.size(), true);
   adjustment.control_used.assign(graph.control.size(), true);
-  for (;;) {
+  for (double share = 0.3;; share *= 0.7) {  // of the progress: nobody knows how many turns it takes
     adjustment.solved = solve_pose_graph(used_part(graph, adjustment), progress);
-    if (consistent(adjustment.solved, graph.control_sigma_m) || !settle_one(graph, adjustment, progress))
-      return adjustment;
+    if (consistent(adjustment.solved, graph.control_sigma_m)) return adjustment;
+    Progress turn = progress.part(share, "looking for what contradicts the rest");
+    if (!settle_one(graph, adjustment, turn)) return adjustment;
   }
 }
 

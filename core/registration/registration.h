@@ -31,7 +31,7 @@ struct RegistrationOptions {
   double guess_sigma_m = 0.5;     ///< how far guesses may be off (one sigma)
   double guess_sigma_deg = 2.0;
   double control_sigma_m = 0.002;      ///< of a target against its control point, per axis
-  double pair_sigma_m = 0.00012;       ///< least sigma of a pair: what its measured scatter leaves out
+  double pair_sigma_m = 0.0001;        ///< least sigma of a pair: what its measured scatter leaves out
   double undetermined_sigma_m = 0.02;  ///< a direction weaker than this is named and held at its prior
   NdtSources ndt_sources = NdtSources::distributions;
   Refinement refinement = Refinement::surfaces;
