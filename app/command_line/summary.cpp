@@ -1,5 +1,6 @@
 #include "app/command_line/summary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -38,8 +39,10 @@ void add_registration(std::string& text, const Results& results) {
           1e3 * pair.median_distance_m);
     text += pair.used ? "\n" : " (not used: " + pair.why_not + ")\n";
   }
+  const auto used = std::count_if(registration.control.begin(), registration.control.end(),
+                                  [](const ControlResidual& residual) { return residual.used; });
   if (!registration.control.empty())
-    add(text, "  control: %zu targets, rms %.1f mm per axis\n", registration.control.size(),
+    add(text, "  control: %td of %zu targets used, rms %.1f mm per axis\n", used, registration.control.size(),
         1e3 * registration.control_rms_m);
 }
 

@@ -196,9 +196,13 @@ void compare_with_guess(const PlacedScan& scan, const Node& node, const Registra
 void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,
                  const RegistrationOptions& options) {
   if (!result.in_site) {
+    const std::string why = context.targets.empty()
+                                ? "there is neither control nor a guess"
+                                : "there is no guess, and the targets do not tie the scans to the site (three are "
+                                  "needed, not on one line)";
     result.findings.push_back({context.axis_direction ? Severity::decision : Severity::note, "datum",
-                               "there is neither control nor a guess: all coordinates are those of scan " +
-                                   result.datum_scan + ", not the site's, and nothing is compared with a design",
+                               why + ": all coordinates are those of scan " + result.datum_scan +
+                                   ", not the site's, and nothing is compared with a design",
                                "survey three targets, or give one scan a pose in job.json"});
     return;
   }
@@ -209,14 +213,17 @@ void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, con
   double span_m = 0.0;
   for (const Node& node : nodes) span_m = std::max(span_m, distance_between_m(node.start, nodes.front().start));
   result.datum_sigma_m = std::hypot(options.guess_sigma_m, 0.5 * span_m * rad_from_deg(options.guess_sigma_deg));
-  if (!context.axis_direction || result.datum_sigma_m <= options.undetermined_sigma_m) return;
+  if (result.datum_sigma_m <= options.undetermined_sigma_m) return;
   const std::string by = result.datum_scan.empty()
                              ? "guesses of its scans say, for there are not three targets"
                              : "the guess of scan " + result.datum_scan + " says, for there is no control";
+  // Without a design nothing is compared with the site.
+  const bool compared = static_cast<bool>(context.axis_direction);
   char words[120];
-  std::snprintf(words, sizeof words, " (sigma %.0f mm), and so do overbreak and underbreak",
-                1000.0 * result.datum_sigma_m);
-  result.findings.push_back({Severity::decision, "datum", "the survey stands in the site as " + by + words,
+  std::snprintf(words, sizeof words, " (sigma %.0f mm)%s", 1000.0 * result.datum_sigma_m,
+                compared ? ", and so do overbreak and underbreak" : "; the sigmas of the scans are without that");
+  result.findings.push_back({compared ? Severity::decision : Severity::note, "datum",
+                             "the survey stands in the site as " + by + words,
                              "survey three targets, or state in registration.guess_sigma_m and guess_sigma_deg how "
                              "well the station is known"});
 }

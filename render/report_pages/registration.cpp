@@ -176,9 +176,10 @@ void add_what_pairs_know(PageFlow& flow, const Results& results) {
         {p.source, p.target, known(p, "along", 1e3 * p.sigma.along_m), known(p, "across", 1e3 * p.sigma.across_m),
          known(p, "up", 1e3 * p.sigma.up_m), known(p, "roll", 1e3 * deg_from_rad(p.sigma.roll_rad)),
          known(p, "pitch", 1e3 * deg_from_rad(p.sigma.pitch_rad)), known(p, "yaw", 1e3 * deg_from_rad(p.sigma.yaw_rad)),
-         TableCell(
-             joined(p.undetermined) + (p.alike_m == 0.0 ? "" : " (as well " + fixed(std::abs(p.alike_m), 2) + " m on)"),
-             colours::red, true)});
+         TableCell(joined(p.undetermined) + (p.alike_m == 0.0 ? ""
+                                                              : " (as well " + fixed(std::abs(p.alike_m), 2) +
+                                                                    (p.alike_m > 0.0 ? " m on)" : " m back)")),
+                   colours::red, true)});
   flow.table(table);
 }
 
