@@ -199,8 +199,9 @@ void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, con
     const std::string why = context.targets.empty()
                                 ? "there is neither control nor a guess"
                                 : "there is no guess, and the targets do not tie the scans to the site (three are "
-                                  "needed, not on one line)";
-    result.findings.push_back({context.axis_direction ? Severity::decision : Severity::note, "datum",
+                                  "needed, not on one line) and are not used";
+    const bool matters = context.axis_direction || !context.targets.empty();
+    result.findings.push_back({matters ? Severity::decision : Severity::note, "datum",
                                why + ": all coordinates are those of scan " + result.datum_scan +
                                    ", not the site's, and nothing is compared with a design",
                                "survey three targets, or give one scan a pose in job.json"});

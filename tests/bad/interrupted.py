@@ -39,7 +39,7 @@ def faults_of(code, seconds, said, by, folder):
     if code is None:
         return []
     if by == signal.SIGKILL:
-        return ["exit %d after kill -9" % code] if code != -signal.SIGKILL else []
+        return ["exit %d after kill -9" % code] if code not in (-signal.SIGKILL, 0, 1) else []  # 0 and 1: it had ended before
     not_begun = code == -by and not folder.exists()  # the program was still being loaded
     return ["exit %d" % code if code not in (130, 0, 1) and not not_begun else "",  # 0 and 1: it had all but ended
             "answered after %.2f s" % seconds if seconds > LONGEST_S else "",

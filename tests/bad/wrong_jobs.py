@@ -131,6 +131,16 @@ def neither_control_nor_guess(job):
     changed_job(job, change)
 
 
+def two_targets_no_guess_and_no_design(job):
+    def change(plan):
+        for key in ("alignment", "profile", "profiles", "lines", "chainage", "rounds"):
+            plan.pop(key, None)
+        for scan in plan["scans"]:
+            del scan["pose"]
+    changed_job(job, change)
+    write_rows(job / "targets.csv", rows_of(job / "targets.csv")[:2])
+
+
 def scan_one_per_mille_too_large(job):
     """As with a wrong correction for the air, or feet that are not quite feet."""
     file = job / "scans/S2.ply"
@@ -170,6 +180,7 @@ CASES = [
     (guess_five_metres_off, "register", 1, r"scan S2: its guess is \d\.\d\d m .* set aside", None, False),
     (guess_far_off_and_turned, "register", 1, r"scan S2: its guess is [89]\.\d\d m and 1[56]\d\.\d degrees .* set aside", r"pair ", False),
     (neither_control_nor_guess, "volume", 1, r"datum: there is neither .* coordinates are those of scan S1", r"axis", False),
+    (two_targets_no_guess_and_no_design, "register", 1, r"datum: there is no guess, and the targets do not tie", r"neither", False),
     (scan_one_per_mille_too_large, "register", 1, r"pair S\d - S\d: S\d shows everything [01]\.\d\d per mille", None, False),
     (no_control, "register", 1, r"datum: .*for there is no control", None, False),
     (the_same_scan_twice, "register", 1, r"S2.* same ", None, False),
