@@ -20,6 +20,12 @@ LONGEST_S = 1.5
 MOMENTS = 10
 
 
+def is_ending(pid):
+    """It has given its exit code already and only frees its memory: no signal changes that (proc(5): PF_EXITING)."""
+    state = pathlib.Path("/proc/%d/stat" % pid).read_text().rpartition(")")[2].split()
+    return state[0] in "ZX" or bool(int(state[6]) & 0x4)
+
+
 def disturbed(command, after_s, by):
     """Exit code (None: it had ended before), seconds from signal to end, words."""
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, env=small_job.ENVIRONMENT)
@@ -29,6 +35,9 @@ def disturbed(command, after_s, by):
         return None, 0.0, ""
     except subprocess.TimeoutExpired:
         pass
+    if is_ending(process.pid):
+        process.communicate()
+        return None, 0.0, ""
     start = time.monotonic()
     process.send_signal(by)
     said = process.communicate(timeout=60)[1].decode("utf-8", "replace")
@@ -39,7 +48,7 @@ def faults_of(code, seconds, said, by, folder):
     if code is None:
         return []
     if by == signal.SIGKILL:
-        return ["exit %d after kill -9" % code] if code not in (-signal.SIGKILL, 0, 1) else []  # 0 and 1: it had ended before
+        return ["exit %d after kill -9" % code] if code != -signal.SIGKILL else []
     not_begun = code == -by and not folder.exists()  # the program was still being loaded
     return ["exit %d" % code if code not in (130, 0, 1) and not not_begun else "",  # 0 and 1: it had all but ended
             "answered after %.2f s" % seconds if seconds > LONGEST_S else "",

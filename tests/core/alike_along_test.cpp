@@ -84,7 +84,7 @@ TEST(AlikeAlongSlow, ARoughLiningIsFoundWhereTheTransformDrifts) {
 }
 
 TEST(AlikeAlongSlow, InACurveWhatIsHeldAlongTakesTheOthersWithIt) {
-  // Half a metre along is as much as 25 mm across to a target that stands 8 m away in a curve of 100 m, and 0.3
+  // Half a metre along is as much as 40 mm across to a target that stands 8 m away in a curve of 100 m, and 0.3
   // degrees: the pair's information has to admit that, whether rings repeat or nothing tells.
   for (const double rib_m : {0.15, 0.0}) {
     const tests::RibbedTunnel tunnel{.rib_m = rib_m, .bend_per_m = 0.01};
