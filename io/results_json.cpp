@@ -77,8 +77,11 @@ json registration_json(const Results& results) {
          {"scale_sigma_per_mille", pair.scale_sigma > 0.0 ? json(1e3 * pair.scale_sigma) : json(nullptr)},
          {"iterations", pair.iterations},
          {"sigma_mm", sigma_mm(pair.sigma)},
+         {"sigma_mdeg", sigma_mdeg(pair.sigma)},
          {"undetermined", pair.undetermined},
          {"alike_m", pair.alike_m == 0.0 ? json(nullptr) : json(pair.alike_m)},
+         {"lone_witness_m",
+          pair.lone_witness.is_empty() ? json(nullptr) : json({pair.lone_witness.from_m, pair.lone_witness.to_m})},
          {"used", pair.used},
          {"why_not", pair.why_not}});
   out["loops"] = json::array();

@@ -7,7 +7,7 @@
 #include "core/geometry/statistics.h"
 #include "core/registration/fit_check.h"
 #include "core/registration/pair_refinement.h"
-#include "core/registration/surface_match.h"
+#include "core/registration/slope_likeness.h"
 
 namespace adit {
 namespace {
@@ -15,12 +15,10 @@ namespace {
 constexpr double step_m = 0.1;
 constexpr double wide_m = 0.1;  // so that no step misses a place between two of them
 constexpr double same_place_m = 0.15;
-constexpr double least_likeness = 0.03;  // of less, noise alone has as much
-constexpr double like = 0.5;             // of the greatest likeness; it changes with the overlap
-constexpr double least_lead = 0.15;      // of worth
-constexpr double clearly_wider = 1.3;    // ribs repeat, the rock between them does not: the residuals tell
+constexpr double like = 0.5;           // of the greatest likeness; it changes with the overlap
+constexpr double least_lead = 0.15;    // of worth
+constexpr double clearly_wider = 1.3;  // ribs repeat, the rock between them does not: the residuals tell
 constexpr std::size_t most_places = 4;
-constexpr std::size_t tight_pieces = 20000;
 
 struct PlaceAlong {
   Pose target_from_source;
@@ -30,40 +28,9 @@ struct PlaceAlong {
   double spread_m = 0.0;  ///< of the residuals
 };
 
-struct Slopes {
-  double source = 0.0;  ///< sum of squares
-  double common = 0.0;
-  Slopes& operator+=(const Slopes& other) {
-    source += other.source;
-    common += other.common;
-    return *this;
-  }
-};
-
-/// Of at most enough pieces, evenly taken.
 double likeness_at(const SurfaceMap& target, const SurfaceMap& source, const Pose& pose, const Eigen::Vector3d& axis,
                    double near_m, std::size_t enough) {
-  const std::vector<SurfacePiece>& pieces = source.pieces();
-  const std::size_t step = pieces.size() / enough + 1;
-  const std::size_t count = (pieces.size() + step - 1) / step;
-  const Slopes slopes = parallel_ordered_sum(count, 1024, Slopes{}, [&](std::size_t begin, std::size_t end) {
-    Slopes sums;
-    for (std::size_t i = begin; i < end; ++i) {
-      const SurfacePiece& piece = pieces[i * step];
-      const Meeting meeting = meeting_of(target, piece, pose);
-      if (!meeting.near) continue;
-      const double slope = axis.dot(pose.linear() * piece.normal.cast<double>());
-      sums.source += slope * slope;
-      if (!meeting.match) continue;
-      const double half_sum = axis.dot(meeting.match->normal);
-      const double half_difference = axis.dot(meeting.match->normal_error);
-      const double off = meeting.match->residual_m / near_m;
-      const double weight = std::max(0.0, 1.0 - off * off);
-      sums.common += weight * (half_sum * half_sum - half_difference * half_difference);
-    }
-    return sums;
-  });
-  return slopes.common / std::max(slopes.source, 1e-9);
+  return slopes_along(target, source, pose, axis, near_m, enough).all().likeness();
 }
 
 /// Shifts of the base about which the pair is likest; the likest first.
@@ -102,7 +69,7 @@ double likeness_beside(const SurfaceMap& target, const SurfaceMap& source, const
   for (const PlaceAlong& place : places)
     for (const double shift_m : {-0.35, 0.35}) {
       const Pose moved = Eigen::Translation3d(shift_m * axis) * place.target_from_source;
-      beside.push_back(likeness_at(target, source, moved, axis, near_m, tight_pieces));
+      beside.push_back(likeness_at(target, source, moved, axis, near_m, enough_slopes));
     }
   return median(beside);
 }
@@ -114,8 +81,7 @@ std::vector<PlaceAlong> places_along(const PreparedScan& target, const PreparedS
   const double fine_m = piece_of(target, source), coarse_m = 2.0 * fine_m;
   const SurfaceMap& fine_target = target.surface(fine_m);
   const SurfaceMap& fine_source = source.surface(fine_m);
-  const double near_m =
-      2.0 * tukey_reach_m(surface_matches(fine_target, fine_source.pieces(), place, progress), fine_m);
+  const double near_m = 2.0 * tukey_reach_m(surface_matches(fine_target, fine_source, place, progress), fine_m);
   std::vector<PlaceAlong> places;
   const auto is_new = [&](double along_m) {
     return std::none_of(places.begin(), places.end(),
@@ -125,7 +91,7 @@ std::vector<PlaceAlong> places_along(const PreparedScan& target, const PreparedS
     const double along_m = shift_along_m(search.guess, pose, search.axis);
     if (is_new(along_m))
       places.push_back(
-          {pose, along_m, likeness_at(fine_target, fine_source, pose, search.axis, near_m, tight_pieces), {}, 0.0});
+          {pose, along_m, likeness_at(fine_target, fine_source, pose, search.axis, near_m, enough_slopes), {}, 0.0});
   };
   add(place);
   const double base_m = shift_along_m(search.guess, base, search.axis);
@@ -148,8 +114,7 @@ void judge(std::vector<PlaceAlong>& places, const PreparedScan& target, const Pr
   for (PlaceAlong& one : places) {
     one.fit = check_fit(target, source, one.target_from_source);
     one.spread_m = tukey_reach_m(
-        surface_matches(target.surface(fine_m), source.surface(fine_m).pieces(), one.target_from_source, progress),
-        fine_m);
+        surface_matches(target.surface(fine_m), source.surface(fine_m), one.target_from_source, progress), fine_m);
   }
 }
 

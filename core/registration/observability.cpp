@@ -227,11 +227,27 @@ Slide slide_between(const Pose& from, const Pose& to, const Eigen::Vector3d& axi
   return {turn / along_m, tangent / along_m};
 }
 
-Pose slid(const Pose& pose, const Slide& slide, double length_m) {
+Pose slid(const Pose& pose, const Slide& slide, double length) {
   Pose moved = pose;
-  moved.linear() = rotation_from_vector(length_m * slide.turn_rad) * pose.linear();
-  moved.translation() += rotation_from_vector(0.5 * length_m * slide.turn_rad) * (length_m * slide.shift_m);
+  moved.linear() = rotation_from_vector(length * slide.turn_rad) * pose.linear();
+  moved.translation() += rotation_from_vector(0.5 * length * slide.turn_rad) * (length * slide.shift_m);
   return moved;
+}
+
+Pose put_back(const Pose& to, const Pose& target_from_source, const HeldDirections& held,
+              const std::array<Slide, 6>& ways, const Eigen::Matrix3d& axes) {
+  constexpr int turns = 4;             // each way may take the others along
+  constexpr double longest_way = 1.0;  // a radian of roll is about the greatest a transform drifts
+  Pose pose = target_from_source;
+  for (int turn = 0; turn < turns; ++turn)
+    for (std::size_t i = 0; i < directions; ++i) {
+      if (!held[i]) continue;
+      const Eigen::Vector3d axis = axes.row(static_cast<Eigen::Index>(i % 3)).transpose();
+      const double left = i < 3 ? axis.dot(to.translation() - pose.translation())
+                                : axis.dot(rotation_vector(to.linear() * pose.linear().transpose()));
+      pose = slid(pose, ways[i], std::clamp(left, -longest_way, longest_way));
+    }
+  return held_at(to, pose, held, axes);
 }
 
 PairInformation judge_observability(std::span<const SurfaceMatch> matches, double tukey_m,
@@ -239,6 +255,7 @@ PairInformation judge_observability(std::span<const SurfaceMatch> matches, doubl
                                     const HeldDirections& held, const std::optional<Slide>& slide) {
   const double lever_m = radius_of_gyration(matches);
   const Matrix6d columns = metres_in(axes_in_target, lever_m);
+  const Matrix6d into_metres = columns.inverse();
   const Known known = known_of(matches, tukey_m, columns);
   PairInformation result;
   result.undetermined = held;
@@ -263,18 +280,24 @@ PairInformation judge_observability(std::span<const SurfaceMatch> matches, doubl
     ways.col(which) = weakest.direction;
     free.erase(free.begin() + static_cast<std::ptrdiff_t>(weakest.which));
   }
-  result.along = {axes_in_target.transpose() * ways.col(along).tail<3>() / lever_m,
-                  axes_in_target.transpose() * ways.col(along).head<3>()};
+  for (std::size_t i = 0; i < directions; ++i) {
+    const Vector6d way = ways.col(static_cast<Eigen::Index>(i)) * (i < 3 ? 1.0 : lever_m);
+    result.ways[i] = {axes_in_target.transpose() * way.tail<3>() / lever_m, axes_in_target.transpose() * way.head<3>()};
+  }
   const double bent_m = bend_m(ways.col(along), lever_m, limits.guess_sigma_m);
   covariance.diagonal().segment<2>(along + 1).array() += bent_m * bent_m;
+  for (const Vector6d& other : limits.other_answers) {
+    Vector6d metres = Vector6d::Zero();
+    metres(free) = Vector6d(into_metres * other)(free);
+    covariance += metres * metres.transpose();
+  }
   Vector6d sigma_m = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   for (std::size_t i = 0; i < directions; ++i)
     if (result.undetermined[i]) sigma_m[static_cast<Eigen::Index>(i)] = unknown_m;
   covariance += unknown_m * unknown_m * ways * ways.transpose();
   for (std::size_t i = 0; i < directions; ++i)
     sigma_of(result.sigma, i) = sigma_m[static_cast<Eigen::Index>(i)] / (i < 3 ? 1.0 : lever_m);
-  const Matrix6d back = columns.inverse();
-  result.information = back.transpose() * covariance.inverse() * back;
+  result.information = into_metres.transpose() * covariance.inverse() * into_metres;
   return result;
 }
 

@@ -24,7 +24,7 @@ std::vector<double> residuals_of(std::span<const SurfaceMatch> matches) {
 std::optional<Vector6d> step_of(const SurfaceMap& target, const SurfaceMap& source, const Pose& pose,
                                 const HeldDirections& held, const Eigen::Matrix3d& axes, double least_reach_m,
                                 Progress& progress) {
-  const std::vector<SurfaceMatch> matches = surface_matches(target, source.pieces(), pose, progress);
+  const std::vector<SurfaceMatch> matches = surface_matches(target, source, pose, progress);
   if (matches.size() < least_matches) return std::nullopt;
   const double reach_m = std::max(least_reach_m, tukey_reach_m(matches, target.cell_m()));
   const NormalEquations equations = normal_equations(matches, reach_m);
@@ -73,6 +73,15 @@ Pose refined(const PreparedScan& target, const PreparedScan& source, Pose pose, 
   pose = stepped_to_rest(target.surface(coarse_m), source.surface(coarse_m), pose, held, axes, 0.5 * coarse_m, 2e-4,
                          progress);
   return stepped_to_rest(target.surface(fine_m), source.surface(fine_m), pose, held, axes, 0.0, 5e-5, progress);
+}
+
+Pose refined_from_large(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                        const HeldDirections& held, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
+                        Progress& progress) {
+  const double large_m = 4.0 * piece_of(target, source);
+  const Pose large = stepped_to_rest(target.surface(large_m), source.surface(large_m), target_from_source, held, axes,
+                                     0.5 * large_m, 2e-4, progress);
+  return refined(target, source, large, held, axes, options, progress);
 }
 
 std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,

@@ -26,6 +26,11 @@ Pose refined(const PreparedScan& target, const PreparedScan& source, Pose target
              const HeldDirections& held, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
              Progress& progress);
 
+/// The same, begun on pieces four times as large.
+Pose refined_from_large(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                        const HeldDirections& held, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
+                        Progress& progress);
+
 /// One step by surfaces, on the smaller pieces; nothing where too few of them meet.
 std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                              const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress);

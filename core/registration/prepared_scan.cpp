@@ -42,6 +42,7 @@ const SurfaceMap& PreparedScan::surface(double size_m) const {
 
 PreparedScan prepare_scan(const std::string& name, const TileSource& source, double spacing_m, double least_range_m,
                           double most_range_m, Progress& progress) {
+  const bool scanner_at_origin = most_range_m < unlimited_range_m;
   PreparedScan scan;
   scan.name = name;
   const auto summed = [&] {
@@ -68,9 +69,9 @@ PreparedScan prepare_scan(const std::string& name, const TileSource& source, dou
     if (size > 0) sums = with_double_cells(std::move(sums));
     if (scan.surfaces.empty() && size + 2 < piece_sizes && mean_points(sums) < points_a_piece) continue;
     if (scan.surfaces.empty()) scan.piece_m = cell_m;
-    scan.surfaces.emplace_back(sums, cell_m, planes.subspan(size, 2));
+    scan.surfaces.emplace_back(sums, cell_m, planes.subspan(size, 2), scanner_at_origin);
   }
-  if (most_range_m < unlimited_range_m) scan.ranges = RangeImage(scan.points);
+  if (scanner_at_origin) scan.ranges = RangeImage(scan.points);
   scan.axis = least_faced(scan.pyramid.levels[scan.pyramid.level_near(0.4)]);
   return scan;
 }

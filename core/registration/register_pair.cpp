@@ -10,6 +10,7 @@
 #include "core/geometry/statistics.h"
 #include "core/registration/alike_along.h"
 #include "core/registration/fit_check.h"
+#include "core/registration/lone_witness.h"
 #include "core/registration/ndt.h"
 #include "core/registration/pair_refinement.h"
 #include "core/registration/scale_check.h"
@@ -60,20 +61,46 @@ LikestPlace likest_near(const PreparedScan& target, const PreparedScan& source, 
   return likest_along(target, source, place, base, search, options, progress);
 }
 
+/// Pairs of which less agrees do not fit each other everywhere (a scanner bends walls, something moved): they are asked
+/// twice more. Simulated rock has 0.75 to 0.95.
+constexpr double well_agreeing = 0.7;
+
+/// Of a pair at a pose, (rotation, translation) to where it ends otherwise: begun on large pieces, and with target and
+/// source exchanged.
+std::vector<Vector6d> other_answers(const PreparedScan& target, const PreparedScan& source, const Pose& pose,
+                                    const Pose& guess, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
+                                    Progress& progress) {
+  const Eigen::Matrix3d axes_in_source = axes * guess.linear();
+  const NdtAlignment exchanged = aligned_at(source, target, guess.inverse(), axes_in_source, options, progress);
+  std::vector<Vector6d> answers;
+  for (const Pose& other : {refined_from_large(target, source, pose, {}, axes, options, progress),
+                            exchanged.target_from_source.inverse()}) {
+    answers.emplace_back();
+    answers.back() << rotation_vector(other.linear() * pose.linear().transpose()),
+        other.translation() - pose.translation();
+  }
+  return answers;
+}
+
 /// A pose, judged by the surfaces that meet there.
 struct Judged {
   std::vector<SurfaceMatch> matches;
   PairInformation known;
 };
 Judged judge(const PreparedScan& target, const PreparedScan& source, const Pose& pose, const Eigen::Matrix3d& axes,
-             const HeldDirections& held, const std::optional<Slide>& slide, const RegistrationOptions& options,
-             Progress& progress) {
+             const HeldDirections& held, const std::optional<Slide>& slide, const std::vector<Vector6d>& others,
+             const Stretch& apart, const RegistrationOptions& options, Progress& progress) {
   const SurfaceMap& surface = target.surface(piece_of(target, source));
   Judged judged;
-  judged.matches = surface_matches(surface, source.surface(surface.cell_m()).pieces(), pose, progress);
-  judged.known =
-      judge_observability(judged.matches, tukey_reach_m(judged.matches, surface.cell_m()), axes,
-                          {options.undetermined_sigma_m, options.pair_sigma_m, options.guess_sigma_m}, held, slide);
+  judged.matches = surface_matches(surface, source.surface(surface.cell_m()), pose, progress);
+  std::vector<SurfaceMatch> witnesses = judged.matches;
+  std::erase_if(witnesses, [&](const SurfaceMatch& match) {
+    const double along_m = axes.row(along).dot(pose.translation() + match.arm);
+    return along_m >= apart.from_m && along_m < apart.to_m;
+  });
+  judged.known = judge_observability(
+      witnesses, tukey_reach_m(judged.matches, surface.cell_m()), axes,
+      {options.undetermined_sigma_m, options.pair_sigma_m, options.guess_sigma_m, others}, held, slide);
   return judged;
 }
 
@@ -91,11 +118,15 @@ Slide slide_of(const PreparedScan& target, const PreparedScan& source, const Pos
 }
 
 /// What is held stands at the guess.
-PoseSigma no_worse_than_guess(const PoseSigma& sigma, const RegistrationOptions& options) {
-  const double most_m = options.guess_sigma_m;
-  const double most_rad = rad_from_deg(options.guess_sigma_deg);
-  return {std::min(sigma.along_m, most_m),    std::min(sigma.across_m, most_m),    std::min(sigma.up_m, most_m),
-          std::min(sigma.roll_rad, most_rad), std::min(sigma.pitch_rad, most_rad), std::min(sigma.yaw_rad, most_rad)};
+PoseSigma as_guessed_where_held(const PairInformation& known, const RegistrationOptions& options) {
+  PoseSigma sigma = known.sigma;
+  double* const moves[] = {&sigma.along_m, &sigma.across_m, &sigma.up_m};
+  double* const turns[] = {&sigma.roll_rad, &sigma.pitch_rad, &sigma.yaw_rad};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (known.undetermined[i]) *moves[i] = options.guess_sigma_m;
+    if (known.undetermined[i + 3]) *turns[i] = rad_from_deg(options.guess_sigma_deg);
+  }
+  return sigma;
 }
 
 void measure(PairResult& pair, std::span<const SurfaceMatch> matches, const Eigen::Matrix3d& axes) {
@@ -157,7 +188,8 @@ double overlap_at(const PreparedScan& target, const PreparedScan& source, const 
 PairInformation pair_information(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                                  const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options,
                                  Progress& progress) {
-  return judge(target, source, target_from_source, tunnel_axes(axis_in_target), {}, {}, options, progress).known;
+  return judge(target, source, target_from_source, tunnel_axes(axis_in_target), {}, {}, {}, {}, options, progress)
+      .known;
 }
 
 PairResult register_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
@@ -185,22 +217,26 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
     pair.alike_m = likest.alike_m;
     slide = likest.slide;
   }
-  Judged judged = judge(target, source, pose, axes, {}, {}, options, last);
+  std::vector<Vector6d> others;
+  if (check_fit(target, source, pose).agreeing < well_agreeing)
+    others = other_answers(target, source, pose, start == Start::guess ? guess : pose, axes, options, last);
+  Judged judged = judge(target, source, pose, axes, {}, {}, others, {}, options, last);
   HeldDirections held = judged.known.undetermined;
   if (held[along]) pair.alike_m = 0.0;  // smooth walls: what is alike there is noise
   // Where it fits elsewhere as well, it stays where the surfaces meet: the adjustment holds it at the guess.
   const HeldDirections at_guess = held;
-  held[along] = held[along] || pair.alike_m != 0.0;
+  if (!held[along] && pair.alike_m == 0.0) pair.lone_witness = lone_witness(target, source, pose, axis_in_target, last);
+  held[along] = held[along] || pair.alike_m != 0.0 || !pair.lone_witness.is_empty();
   if (held != HeldDirections{}) {
-    pose = refined(target, source, held_at(guess, pose, at_guess, axes), held, axes, options, last);
-    judged = judge(target, source, pose, axes, held, slide, options, last);
-    if (at_guess[along]) {
-      slide = slide_of(target, source, pose, held, judged.known.along, axes, options, last);
-      judged = judge(target, source, pose, axes, held, slide, options, last);
+    pose = refined(target, source, put_back(guess, pose, at_guess, judged.known.ways, axes), held, axes, options, last);
+    judged = judge(target, source, pose, axes, held, slide, others, pair.lone_witness, options, last);
+    if (at_guess[along] || !pair.lone_witness.is_empty()) {
+      slide = slide_of(target, source, pose, held, judged.known.ways[along], axes, options, last);
+      judged = judge(target, source, pose, axes, held, slide, others, pair.lone_witness, options, last);
     }
   }
   pair.target_from_source = pose;
-  pair.sigma = no_worse_than_guess(judged.known.sigma, options);
+  pair.sigma = as_guessed_where_held(judged.known, options);
   pair.information = judged.known.information;
   for (std::size_t i = 0; i < held.size(); ++i)
     if (judged.known.undetermined[i]) pair.undetermined.emplace_back(direction_names[i]);

@@ -175,11 +175,15 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   result.in_site = stand_in_site(nodes);
   RegistrationContext context = known;
   if (!result.in_site) context.axis_direction = nullptr;  // the design's axis lies in the site
-  const std::vector<Candidate> candidates = candidate_pairs(nodes, options);
-  Progress matching = progress.part(0.3, "matching scans");
-  result.pairs = register_pairs(nodes, candidates, context, options, matching);
+  Progress matching = progress.part(0.25, "matching scans");
+  MatchedPairs pairs = register_pairs(nodes, candidate_pairs(nodes, options), context, options, matching);
+  Progress again = progress.part(0.05, "matching scans again");
+  const std::vector<bool> moved = set_aside_wrong_guesses(nodes, pairs, options, result.findings);
+  if (std::find(moved.begin(), moved.end(), true) != moved.end())
+    pairs = register_moved(nodes, moved, std::move(pairs), context, options, again);
+  const std::vector<Candidate>& candidates = pairs.candidates;
+  result.pairs = std::move(pairs.results);
   report_pairs(result, options);
-  set_aside_wrong_guesses(nodes, candidates, result.pairs, options, result.findings);
   Progress adjusting = progress.part(0.1, "adjusting all scans");
   const PoseGraph graph = graph_of(nodes, candidates, result.pairs, options);
   const Adjustment adjustment = adjusted(graph, adjusting);

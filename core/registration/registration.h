@@ -76,6 +76,13 @@ struct PoseSigma {
   double yaw_rad = 0.0;    ///< about the vertical
 };
 
+/// A stretch of the tunnel, along its axis.
+struct Stretch {
+  double from_m = 0.0;
+  double to_m = 0.0;
+  bool is_empty() const { return to_m <= from_m; }
+};
+
 /// How two scans fit. Transform and sigma are those of the pair alone, before the adjustment.
 struct PairResult {
   std::string source;
@@ -99,6 +106,9 @@ struct PairResult {
   /// How far along the tunnel from here it fits as well (ribs and rings repeat), so that "along" is undetermined; 0:
   /// nowhere near.
   double alike_m = 0.0;
+  /// Where the only place stands that tells "along", from the target along the tunnel: nothing bears it out, so that
+  /// "along" is undetermined. Empty where more than one does.
+  Stretch lone_witness;
   bool used = true;     ///< in the adjustment
   std::string why_not;  ///< in words, when it is not used
   Matrix6d information =

@@ -87,6 +87,15 @@ void report_pairs(RegistrationResult& result, const RegistrationOptions& options
           {Severity::warning, subject, words,
            "survey targets, or state in registration.guess_sigma_m how well the poses are known"});
     }
+    if (!pair.lone_witness.is_empty()) {
+      std::snprintf(words, sizeof words,
+                    "only what stands %.1f to %.1f m along the tunnel from %s tells \"along\", and it may have moved "
+                    "between the scans: \"along\" is held",
+                    pair.lone_witness.from_m, pair.lone_witness.to_m, pair.target.c_str());
+      result.findings.push_back(
+          {Severity::warning, subject, words,
+           "survey targets, or state in registration.guess_sigma_m how well the poses are known"});
+    }
     if (is_other_scale(pair)) {
       std::snprintf(words, sizeof words, " shows everything %.2f per mille %s (sigma %.2f) than ",
                     1e3 * std::abs(pair.scale - 1.0), pair.scale > 1.0 ? "smaller" : "larger", 1e3 * pair.scale_sigma);

@@ -2,57 +2,78 @@
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 namespace adit {
 namespace {
 
-/// What growing by one does to the residual.
-double growth(const SurfaceMatch& match) {
-  return match.arm.dot(match.normal);
+using Vector7d = Eigen::Matrix<double, 7, 1>;
+using Matrix7d = Eigen::Matrix<double, 7, 7>;
+constexpr Eigen::Index growth = 6;
+
+/// What the pose's six and growing by one do to the residual.
+Vector7d answers_of(const SurfaceMatch& match) {
+  Vector7d answers;
+  answers << jacobian_of(match), match.arm.dot(match.normal);
+  return answers;
 }
 
-/// The pose's answer to growing by one: what is left of growth is J-free.
-Vector6d pose_of_growth(std::span<const SurfaceMatch> matches, double tukey_m) {
-  Matrix6d hessian = Matrix6d::Zero();
-  Vector6d mixed = Vector6d::Zero();
+struct Equations {
+  Matrix7d hessian = Matrix7d::Zero();
+  Vector7d gradient = Vector7d::Zero();
+};
+
+/// Weighted as the residuals are after `moved`.
+Equations equations_after(std::span<const SurfaceMatch> matches, const Vector7d& moved, double tukey_m) {
+  Equations sums;
   double weights = 0.0;
   for (const SurfaceMatch& match : matches) {
-    const Vector6d j = jacobian_of(match);
-    const double weight = tukey_weight(match.residual_m, tukey_m);
-    hessian.noalias() += weight * j * j.transpose();
-    mixed += weight * growth(match) * j;
+    const Vector7d answers = answers_of(match);
+    const double residual_m = match.residual_m + answers.dot(moved);
+    const double weight = tukey_weight(residual_m, tukey_m);
+    sums.hessian.noalias() += weight * answers * answers.transpose();
+    sums.gradient += weight * residual_m * answers;
     weights += weight;
   }
-  hessian.diagonal().array() += 1e-6 * weights + 1e-12;  // directions that nothing determines follow no growth
-  return hessian.ldlt().solve(mixed);
+  sums.hessian.diagonal().head<growth>().array() += 1e-6 * weights + 1e-12;  // what nothing determines stays
+  return sums;
 }
 
 }  // namespace
 
 ScaleCheck check_scale(std::span<const SurfaceMatch> matches, double tukey_m) {
   constexpr double cube_m = 2.0;
+  constexpr int most_steps = 10;
   if (matches.size() < least_matches) return {};
-  const Vector6d follows = pose_of_growth(matches, tukey_m);
-  const auto left = [&](const SurfaceMatch& match) { return growth(match) - follows.dot(jacobian_of(match)); };
-  double squares = 0.0, product = 0.0;
-  for (const SurfaceMatch& match : matches) {
-    const double weight = tukey_weight(match.residual_m, tukey_m), own = left(match);
-    squares += weight * own * own;
-    product += weight * own * match.residual_m;
+  Vector7d moved = Vector7d::Zero();
+  Equations equations = equations_after(matches, moved, tukey_m);
+  for (int i = 0; i < most_steps; ++i) {
+    if (!(equations.hessian(growth, growth) > 0.0)) return {};
+    moved -= equations.hessian.ldlt().solve(equations.gradient);
+    equations = equations_after(matches, moved, tukey_m);
   }
-  if (!(squares > 0.0)) return {};
-  const double grown = -product / squares;
+  // The growth that the pose does not follow (Frisch and Waugh 1933).
+  Vector7d own = Vector7d::Unit(growth);
+  own.head<growth>() = -equations.hessian.topLeftCorner<growth, growth>().ldlt().solve(
+      Vector6d(equations.hessian.col(growth).head<growth>()));
+  double weights = 0.0, bends = 0.0, squares = 0.0;
   std::map<std::uint64_t, double> pull_of_cube;
   for (const SurfaceMatch& match : matches) {
-    const double own = left(match);
-    pull_of_cube[cell_key(in_cells(match.arm, cube_m))] +=
-        tukey_weight(match.residual_m, tukey_m) * own * (match.residual_m + own * grown);
+    const Vector7d answers = answers_of(match);
+    const double residual_m = match.residual_m + answers.dot(moved), alone = own.dot(answers);
+    const double weight = tukey_weight(residual_m, tukey_m);
+    weights += weight;
+    bends += tukey_curvature(residual_m, tukey_m);
+    squares += weight * alone * alone;
+    pull_of_cube[cell_key(in_cells(match.arm, cube_m))] += weight * alone * residual_m;
   }
+  if (!(squares > 0.0)) return {};
   double spread = 0.0;
   for (const auto& [cube, pull] : pull_of_cube) spread += pull * pull;
-  return {1.0 + grown, std::sqrt(spread) / squares};
+  const double robust_share = std::clamp(bends / weights, 0.3, 1.0);
+  return {1.0 + moved[growth], std::sqrt(spread) / (robust_share * squares)};
 }
 
 }  // namespace adit

@@ -14,8 +14,8 @@ struct ScaleCheck {
   double sigma = 0.0;  ///< 0: not known, too few matches
 };
 
-/// One Gauss-Newton step of scale with Tukey's weights, the six of the pose eliminated (Frisch and Waugh 1933); sigma
-/// from the spread of what cubes of 2 m say.
+/// By steps of the pose's six and of scale together, reweighted by Tukey's weights until they rest; sigma from the
+/// spread of what cubes of 2 m pull.
 ScaleCheck check_scale(std::span<const SurfaceMatch> matches, double tukey_m);
 
 }  // namespace adit

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <numeric>
 #include <set>
+#include <utility>
 
 #include "core/foundation/parallel.h"
 #include "core/registration/found_place.h"
@@ -29,20 +29,6 @@ Start start_of(const Node& target, const Node& source) {
   const auto both = [&](Node::By by) { return target.by == by && source.by == by; };
   if (both(Node::By::search)) return Start::found;
   return both(Node::By::control) ? Start::surveyed : Start::guess;
-}
-
-/// A pair with directions that it does not know has nothing to say of scans which others tie together in all of them.
-void leave_out_weak(std::vector<PairResult>& pairs, const std::vector<Candidate>& candidates, std::size_t nodes) {
-  std::vector<std::size_t> group(nodes);
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (pairs[k].used && pairs[k].undetermined.empty())
-      std::replace(group.begin(), group.end(), std::size_t{group[candidates[k].source]}, group[candidates[k].target]);
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (pairs[k].used && !pairs[k].undetermined.empty() && group[candidates[k].source] == group[candidates[k].target]) {
-      pairs[k].used = false;
-      pairs[k].why_not = "does not know \"" + pairs[k].undetermined.front() + "\", which other pairs know";
-    }
 }
 
 }  // namespace
@@ -79,9 +65,9 @@ PairResult matched_pair(const PreparedScan& target, const PreparedScan& source, 
   return register_pair(target, source, other.target_from_source, Start::found, axis_in_target, options, progress);
 }
 
-std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
-                                       const RegistrationContext& context, const RegistrationOptions& options,
-                                       Progress& progress) {
+MatchedPairs register_pairs(const std::vector<Node>& nodes, std::vector<Candidate> candidates,
+                            const RegistrationContext& context, const RegistrationOptions& options,
+                            Progress& progress) {
   std::vector<Progress> parts;
   for (const auto& c : candidates)
     parts.push_back(
@@ -102,8 +88,29 @@ std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std
         results[k].used = results[k].why_not.empty();
       },
       1);
-  leave_out_weak(results, candidates, nodes.size());
-  return results;
+  return {std::move(candidates), std::move(results)};
+}
+
+MatchedPairs register_moved(const std::vector<Node>& nodes, const std::vector<bool>& moved, MatchedPairs before,
+                            const RegistrationContext& context, const RegistrationOptions& options,
+                            Progress& progress) {
+  MatchedPairs kept;
+  for (std::size_t k = 0; k < before.candidates.size(); ++k) {
+    const PairResult& pair = before.results[k];
+    const bool touched = moved[before.candidates[k].target] || moved[before.candidates[k].source];
+    if (touched && !(pair.used && pair.undetermined.empty())) continue;
+    kept.candidates.push_back(before.candidates[k]);
+    kept.results.push_back(pair);
+  }
+  const auto is_kept = [&](const Candidate& candidate) {
+    return std::find(kept.candidates.begin(), kept.candidates.end(), candidate) != kept.candidates.end();
+  };
+  std::vector<Candidate> open = candidate_pairs(nodes, options);
+  std::erase_if(open, is_kept);
+  const MatchedPairs again = register_pairs(nodes, std::move(open), context, options, progress);
+  kept.candidates.insert(kept.candidates.end(), again.candidates.begin(), again.candidates.end());
+  kept.results.insert(kept.results.end(), again.results.begin(), again.results.end());
+  return kept;
 }
 
 }  // namespace adit

@@ -12,6 +12,13 @@ namespace adit {
 struct Candidate {
   std::size_t target = 0;
   std::size_t source = 0;
+  bool operator==(const Candidate&) const = default;
+};
+
+/// Candidates and what came of each.
+struct MatchedPairs {
+  std::vector<Candidate> candidates;
+  std::vector<PairResult> results;
 };
 
 /// Pairs of near stations that overlap at their starts; each scan keeps its nearest few.
@@ -26,10 +33,13 @@ inline constexpr double least_agreeing = 0.45;
 PairResult matched_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
                         const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options, Progress& progress);
 
-/// One result for each candidate. Not used are those that overlap too little, those that do not agree, and those with
-/// directions that they do not know between scans which other pairs tie together in every direction.
-std::vector<PairResult> register_pairs(const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
-                                       const RegistrationContext& context, const RegistrationOptions& options,
-                                       Progress& progress);
+/// Matches all candidates. Not used are those that overlap too little and those that do not agree.
+MatchedPairs register_pairs(const std::vector<Node>& nodes, std::vector<Candidate> candidates,
+                            const RegistrationContext& context, const RegistrationOptions& options, Progress& progress);
+
+/// After some nodes have moved: what their pairs do not know they were told by wrong starts, so that these, and the
+/// pairs that were not used or no candidates, are matched (again).
+MatchedPairs register_moved(const std::vector<Node>& nodes, const std::vector<bool>& moved, MatchedPairs before,
+                            const RegistrationContext& context, const RegistrationOptions& options, Progress& progress);
 
 }  // namespace adit

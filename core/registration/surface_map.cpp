@@ -30,7 +30,9 @@ Eigen::Vector3d normal_at(const DistributionMap& planes, const Eigen::Vector3d& 
 
 }  // namespace
 
-SurfaceMap::SurfaceMap(const std::vector<CellSums>& sums, double cell_m, std::span<const DistributionMap> planes) {
+SurfaceMap::SurfaceMap(const std::vector<CellSums>& sums, double cell_m, std::span<const DistributionMap> planes,
+                       bool seen_from_origin)
+    : seen_from_origin_(seen_from_origin) {
   std::vector<Eigen::Vector3f> normals(sums.size());
   parallel_for_each_index(sums.size(), [&](std::size_t i) {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();

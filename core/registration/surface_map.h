@@ -30,11 +30,13 @@ class SurfaceMap {
  public:
   SurfaceMap() = default;
   /// A piece for every cell of edge cell_m near which `planes` know a surface: maps of larger cells, the finest first;
-  /// the first that knows one is asked.
-  SurfaceMap(const std::vector<CellSums>& sums, double cell_m, std::span<const DistributionMap> planes);
+  /// the first that knows one is asked. seen_from_origin: whether the scanner stood at the origin.
+  SurfaceMap(const std::vector<CellSums>& sums, double cell_m, std::span<const DistributionMap> planes,
+             bool seen_from_origin = false);
 
   double cell_m() const { return index_.cell_m(); }
   const std::vector<SurfacePiece>& pieces() const { return pieces_; }
+  bool seen_from_origin() const { return seen_from_origin_; }
 
   /// Calls visit(piece) for those of the cell that holds the place and of the 26 around it, in a fixed order.
   template <typename Visit>
@@ -45,6 +47,7 @@ class SurfaceMap {
  private:
   std::vector<SurfacePiece> pieces_;
   CellIndex index_;
+  bool seen_from_origin_ = false;
 };
 
 }  // namespace adit

@@ -12,12 +12,6 @@ namespace {
 // surface.
 constexpr double least_facing = 0.85;
 
-/// The derivative of Tukey's weight times residual.
-double tukey_curvature(double residual_m, double reach_m) {
-  const double u2 = residual_m * residual_m / (reach_m * reach_m);
-  return u2 < 1.0 ? (1.0 - u2) * (1.0 - 5.0 * u2) : 0.0;
-}
-
 /// The target's surface about a source piece.
 class Surface {
  public:
@@ -62,23 +56,37 @@ class Surface {
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
 };
 
+/// Whether one scanner stands before the surface and one behind it; a surface seen along itself says neither.
+bool is_of_two_sides(const SurfaceMatch& match, const Eigen::Vector3d& place) {
+  constexpr double grazing = 0.1;
+  const double of_source = match.arm.normalized().dot(match.normal);
+  const double of_target = place.normalized().dot(match.normal);
+  return of_source * of_target < 0.0 && std::min(std::abs(of_source), std::abs(of_target)) > grazing;
+}
+
 }  // namespace
 
-Meeting meeting_of(const SurfaceMap& target, const SurfacePiece& piece, const Pose& target_from_source) {
+Meeting meeting_of(const SurfaceMap& target, const SurfacePiece& piece, const Pose& target_from_source,
+                   bool from_origins) {
   const Eigen::Vector3d place = target_from_source * piece.place.cast<double>();
   Surface surface(place, target_from_source.linear() * piece.normal.cast<double>(), target.cell_m());
   target.visit_near(place, [&](const SurfacePiece& near) { surface.add(near); });
-  return {surface.is_near(), surface.match(target_from_source.translation())};
+  Meeting meeting{surface.is_near(), surface.match(target_from_source.translation())};
+  if (from_origins && meeting.match && is_of_two_sides(*meeting.match, place)) meeting.match.reset();
+  return meeting;
 }
 
-std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, std::span<const SurfacePiece> source,
+std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, const SurfaceMap& source,
                                           const Pose& target_from_source, Progress& progress) {
-  return parallel_ordered_list(source.size(), 1024, [&](std::size_t begin, std::size_t end) {
+  const std::span<const SurfacePiece> pieces(source.pieces());
+  const bool from_origins = target.seen_from_origin() && source.seen_from_origin();
+  return parallel_ordered_list(pieces.size(), 1024, [&](std::size_t begin, std::size_t end) {
     progress.check();
     std::vector<SurfaceMatch> matches;
     matches.reserve(end - begin);
-    for (const SurfacePiece& piece : source.subspan(begin, end - begin))
-      if (const auto match = meeting_of(target, piece, target_from_source).match) matches.push_back(*match);
+    for (const SurfacePiece& piece : pieces.subspan(begin, end - begin))
+      if (const auto match = meeting_of(target, piece, target_from_source, from_origins).match)
+        matches.push_back(*match);
     return matches;
   });
 }

@@ -28,14 +28,17 @@ struct Meeting {
   bool near = false;                  ///< the target has pieces within one cell, whichever way they face
   std::optional<SurfaceMatch> match;  ///< where some of them face as the source's piece does
 };
-Meeting meeting_of(const SurfaceMap& target, const SurfacePiece& piece, const Pose& target_from_source);
+/// from_origins: both scanners stood at the origin of their scans. Then a surface that one of them clearly saw from its
+/// other side is another one: the two faces of a pillar, a box, a rib.
+Meeting meeting_of(const SurfaceMap& target, const SurfacePiece& piece, const Pose& target_from_source,
+                   bool from_origins);
 
 /// For every source piece with target pieces within one cell that face the same way (32 degrees): the distance to the
 /// surface that these make together, with the weights w of near_weight (implicit moving least squares, Kolluri
 /// 2008),
 ///   residual = sum w n . (q - t) / sum w,   n = (n_t + R n_s) / 2,
 /// the normals of both sides halved (the symmetric metric of Rusinkiewicz 2019: exact on surfaces that curve).
-std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, std::span<const SurfacePiece> source,
+std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, const SurfaceMap& source,
                                           const Pose& target_from_source, Progress& progress);
 
 /// [arm x n, n]: what a turn [rad] about the source's origin and a shift do to the residual.
@@ -49,6 +52,12 @@ inline Vector6d jacobian_of(const SurfaceMatch& match) {
 inline double tukey_weight(double residual_m, double reach_m) {
   const double left = 1.0 - residual_m * residual_m / (reach_m * reach_m);
   return left > 0.0 ? left * left : 0.0;
+}
+
+/// The derivative of Tukey's weight times residual.
+inline double tukey_curvature(double residual_m, double reach_m) {
+  const double u2 = residual_m * residual_m / (reach_m * reach_m);
+  return u2 < 1.0 ? (1.0 - u2) * (1.0 - 5.0 * u2) : 0.0;
 }
 
 /// Sums over matches with J = [arm x n, n] (rotation [rad] about the source's origin, then translation [m]) and Tukey's

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double wrong_sigmas = 4.0;
 
-/// The used pairs of each node whose partner has a guess too: how many there are, and how many contradict both.
+/// The used pairs of each node whose partner has a guess too: how many there are, and how many contradict both. A pair
+/// that is held at the guess bears out none.
 struct Votes {
   std::size_t pairs = 0;
   std::size_t against = 0;
@@ -31,6 +32,7 @@ std::vector<Votes> votes_of(const std::vector<Node>& nodes, const std::vector<Ca
     const Node& source = nodes[candidates[k].source];
     if (!pairs[k].used || target.by == Node::By::search || source.by == Node::By::search) continue;
     const std::size_t against = contradicts(target, source, pairs[k], options) ? 1 : 0;
+    if (against == 0 && !pairs[k].undetermined.empty()) continue;
     for (const std::size_t node : {candidates[k].target, candidates[k].source}) {
       ++votes[node].pairs;
       votes[node].against += against;
@@ -70,16 +72,15 @@ void start_from_partners(std::vector<Node>& nodes, std::vector<bool> set_aside,
 
 }  // namespace
 
-void set_aside_wrong_guesses(std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
-                             const std::vector<PairResult>& pairs, const RegistrationOptions& options,
-                             Findings& findings) {
+std::vector<bool> set_aside_wrong_guesses(std::vector<Node>& nodes, const MatchedPairs& pairs,
+                                          const RegistrationOptions& options, Findings& findings) {
   std::vector<bool> set_aside(nodes.size(), false);
   const std::vector<Node> guessed = nodes;
-  while (const auto wrong = wrong_node(nodes, votes_of(nodes, candidates, pairs, options))) {
+  while (const auto wrong = wrong_node(nodes, votes_of(nodes, pairs.candidates, pairs.results, options))) {
     nodes[*wrong].by = Node::By::search;
     set_aside[*wrong] = true;
   }
-  start_from_partners(nodes, set_aside, candidates, pairs);
+  start_from_partners(nodes, set_aside, pairs.candidates, pairs.results);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!set_aside[i]) continue;
     char words[200];
@@ -91,6 +92,7 @@ void set_aside_wrong_guesses(std::vector<Node>& nodes, const std::vector<Candida
     findings.push_back({Severity::decision, "scan " + nodes[i].prepared->name, words,
                         "check its pose in job.json and those of the scans beside it"});
   }
+  return set_aside;
 }
 
 }  // namespace adit

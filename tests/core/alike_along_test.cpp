@@ -124,5 +124,39 @@ TEST(AlikeAlongSlow, OppositeFacesOfARibDoNotPullScansTogether) {
   EXPECT_LT(std::abs(found.error_m.x()), 4.0 * found.pair.sigma.along_m);
 }
 
+/// Two scans between which the face went on.
+TwoScans scans_before_a_face(double roughness_m, double went_on_m) {
+  Progress progress;
+  const auto prepared = [&](const Pose& pose, std::uint64_t seed, double face_m) {
+    const tests::RibbedTunnel tunnel{.rib_m = 0.0, .roughness_m = roughness_m, .face_m = face_m};
+    return prepare_scan("scan", CloudTiles(tunnel.scan(pose, 150000, seed)), 0.1, 0.6, 45.0, progress);
+  };
+  return {prepared(first, 1, 15.0), prepared(second, 2, 15.0 + went_on_m)};
+}
+
+TEST(LoneWitnessSlow, WhatAFaceAloneTellsIsNotBelieved) {
+  for (const double went_on_m : {0.0, 0.3}) {
+    const Matched found = matched(scans_before_a_face(0.0, went_on_m), 0.1);
+    EXPECT_EQ(found.pair.undetermined, (std::vector<std::string>{"along"}));
+    EXPECT_GE(found.pair.sigma.along_m, 0.5);
+    EXPECT_LT(found.error_m.tail<2>().norm(), 0.002);
+    const double face_m = 15.0 - 0.13;  // from the target's scanner
+    EXPECT_LT(found.pair.lone_witness.from_m, face_m);
+    EXPECT_GT(found.pair.lone_witness.to_m, face_m);
+  }
+}
+
+TEST(LoneWitnessSlow, RoughWallsBearTheFaceOutOrContradictIt) {
+  const Matched same = matched(scans_before_a_face(0.03, 0.0), 0.1);
+  EXPECT_TRUE(same.pair.lone_witness.is_empty());
+  EXPECT_TRUE(same.pair.undetermined.empty());
+  EXPECT_LT(same.error_m.norm(), 0.001);
+  const Matched moved = matched(scans_before_a_face(0.03, 0.3), 0.1);
+  if (moved.pair.undetermined.empty()) {
+    EXPECT_LT(std::abs(moved.error_m.x()), 4.0 * moved.pair.sigma.along_m);
+  }
+  EXPECT_LT(moved.error_m.tail<2>().norm(), 0.004);
+}
+
 }  // namespace
 }  // namespace adit

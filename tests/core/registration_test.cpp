@@ -86,6 +86,32 @@ TEST(RegistrationSlow, AFeaturelessTubeIsUndeterminedAlongAndHeldAtItsGuess) {
                           [](const Finding& f) { return f.severity == Severity::decision && f.subject == "scan B"; }));
 }
 
+TEST(RegistrationSlow, InARoundTubeRollIsHeldWhereTheScanFits) {
+  // Neither scanner stands on the axis: a transform that has rolled the scan about it has moved the scanner by metres.
+  RockTunnelOptions smooth;
+  smooth.from_m = 1.0;
+  smooth.face_m = 110.0;
+  smooth.lookout_collar_m = smooth.lookout_toe_m = smooth.corner_m = 0.0;
+  smooth.roughness_sigma_m = smooth.floor_sigma_m = smooth.floor_mean_m = 0.0;
+  smooth.clutter = false;
+  const RockTunnel tube(sample_design(circle_profile(3.0)), smooth);
+  const auto standing = [&](double chainage_m, double x_m, double z_m, double yaw_deg) {
+    return make_pose(tube.design().alignment().to_site({chainage_m, x_m, z_m}), {rad_from_deg(yaw_deg), 0.0, 0.0});
+  };
+  const Pose first = standing(50.0, 1.5, -1.0, 10.0);
+  for (const Pose& second : {standing(58.0, -1.2, -0.5, 70.0), standing(58.0, -1.8, 0.0, 120.0)}) {
+    Progress progress;
+    const RegistrationResult result =
+        register_scans({scan_to_place("A", scan_at(tube, first, 1, 200000), first),
+                        scan_to_place("B", scan_at(tube, second, 2, 200000), off(second, {0.1, 0.1, 0.05}, 0.5))},
+                       context_along(tube.design().alignment()), {}, progress);
+    ASSERT_TRUE(result.pairs[0].used) << result.pairs[0].why_not;
+    EXPECT_EQ(result.pairs[0].undetermined, (std::vector<std::string>{"along", "roll"}));
+    EXPECT_LT(result.pairs[0].median_m, 0.002);
+    EXPECT_LT(distance_between_m(result.scans[1].local_from_scan, second), 0.25);
+  }
+}
+
 TEST(RegistrationSlow, ControlDeterminesWhatACloudCannot) {
   RockTunnelOptions smooth;
   smooth.from_m = 1.0;

@@ -30,10 +30,10 @@ void add_patch(std::vector<Eigen::Vector3f>& points, const Patch& patch, double 
                          .cast<float>());
 }
 
-SurfaceMap map_of(const std::vector<Eigen::Vector3f>& points) {
+SurfaceMap map_of(const std::vector<Eigen::Vector3f>& points, bool seen_from_origin = false) {
   const std::vector<CellSums> sums = cell_sums(points, cell_m);
   const std::vector<DistributionMap> planes{DistributionMap(with_double_cells(sums), 2.0 * cell_m, {})};
-  return {sums, cell_m, planes};
+  return {sums, cell_m, planes, seen_from_origin};
 }
 
 /// Where the source's scanner stood: its cells are not those of the target.
@@ -74,8 +74,7 @@ SurfaceMap tube(double noise_m, std::uint64_t seed, const Pose& from = Pose::Ide
 
 PairInformation judged(const SurfaceMap& target, const SurfaceMap& source) {
   Progress progress;
-  return judge_observability(surface_matches(target, source.pieces(), stood, progress), 0.05, tunnel_axes({1, 0, 0}),
-                             {}, {});
+  return judge_observability(surface_matches(target, source, stood, progress), 0.05, tunnel_axes({1, 0, 0}), {}, {});
 }
 
 std::vector<std::string> undetermined(const PairInformation& known) {
@@ -93,7 +92,7 @@ TEST(SurfaceMatch, OneStepFindsASmallMoveOfPlanes) {
   pose.translation() = Eigen::Vector3d(0.02, -0.03, 0.01);
   pose.linear() = rotation_from_vector({0.002, -0.001, 0.003});
   for (int i = 0; i < 4; ++i) {
-    const auto matches = surface_matches(target, source.pieces(), pose, progress);
+    const auto matches = surface_matches(target, source, pose, progress);
     ASSERT_GT(matches.size(), 2000U);
     pose = stepped(pose, step_without(normal_equations(matches, 0.1), {}, tunnel_axes({1, 0, 0})));
   }
@@ -105,7 +104,21 @@ TEST(SurfaceMatch, OfTwoFacesOfOneWallThereIsNone) {
   const SurfaceMap target = surface_of({{{4.0, 0, 0}, {1, 0, 0}}}, 0.0, 1);
   const SurfaceMap source = surface_of({{{4.0, 0, 0}, {0, 1, 0}}}, 0.0, 9);
   Progress progress;
-  EXPECT_TRUE(surface_matches(target, source.pieces(), Pose::Identity(), progress).empty());
+  EXPECT_TRUE(surface_matches(target, source, Pose::Identity(), progress).empty());
+}
+
+TEST(SurfaceMatch, OfTwoFacesSeenFromTheirOwnSidesThereIsNone) {
+  // A thin wall between two scanners. Where nobody knows where they stood, it is one surface.
+  std::vector<Eigen::Vector3f> wall;
+  add_patch(wall, {{1.5, 0.2, 0.1}, {1, 0, 0}, 1.0}, 0.001, 7);
+  const Pose behind = make_pose({3.0, 0.1, 0.0}, {0.5, 0.0, 0.0});
+  const auto matches = [&](const Pose& from, bool known) {
+    Progress progress;
+    return surface_matches(map_of(wall, known), map_of(seen_from(from, wall), known), from, progress).size();
+  };
+  EXPECT_GT(matches(behind, false), 50U);
+  EXPECT_EQ(matches(behind, true), 0U);
+  EXPECT_GT(matches(stood, true), 50U);
 }
 
 TEST(Observability, ARoomIsKnownInEveryDirection) {
@@ -164,8 +177,23 @@ TEST(Observability, WhatOnePlaceAloneHoldsIsUnknownAndNothingElse) {
   EXPECT_LT(known.sigma.roll_rad, 0.001);
 }
 
+TEST(Observability, OtherAnswersAreErrors) {
+  Progress progress;
+  const auto matches = surface_matches(surface_of(room, 0.003, 1), surface_of(room, 0.003, 50, stood), stood, progress);
+  Vector6d other;
+  other << 0.0, 0.01, 0.0, 0.04, 0.0, 0.05;
+  ObservabilityLimits limits;
+  limits.other_answers = {other};
+  const PairInformation known = judge_observability(matches, 0.05, tunnel_axes({1, 0, 0}), limits, {});
+  EXPECT_TRUE(undetermined(known).empty());
+  EXPECT_NEAR(known.sigma.along_m, 0.04, 0.001);
+  EXPECT_NEAR(known.sigma.up_m, 0.05, 0.001);
+  EXPECT_LT(known.sigma.across_m, 0.001);
+  EXPECT_NEAR(other.dot(known.information * other), 1.0, 0.01);
+}
+
 TEST(ScaleCheck, FindsHowMuchLargerAScanIs) {
-  for (const double scale : {1.0, 1.002}) {
+  for (const double scale : {1.0, 1.0004, 1.002}) {
     std::vector<Eigen::Vector3f> points;
     std::uint64_t seed = 60;
     for (const Patch& patch : room) add_patch(points, patch, 0.003, seed++);
@@ -173,9 +201,8 @@ TEST(ScaleCheck, FindsHowMuchLargerAScanIs) {
     for (auto& p : points) p *= static_cast<float>(scale);
     Progress progress;
     const SurfaceMap source = map_of(points);
-    const ScaleCheck check =
-        check_scale(surface_matches(surface_of(room, 0.003, 1), source.pieces(), stood, progress), 0.05);
-    EXPECT_NEAR(check.scale, 1.0 / scale, 1e-4);
+    const ScaleCheck check = check_scale(surface_matches(surface_of(room, 0.003, 1), source, stood, progress), 0.05);
+    EXPECT_NEAR(check.scale, 1.0 / scale, 3e-5);
     EXPECT_NEAR(check.scale, 1.0 / scale, 4.0 * check.sigma);
     EXPECT_GT(check.sigma, 1e-6);
     EXPECT_LT(check.sigma, 1e-4);

@@ -1,0 +1,59 @@
+#include "core/registration/lone_witness.h"
+
+#include <algorithm>
+
+#include "core/registration/pair_refinement.h"
+#include "core/registration/slope_likeness.h"
+
+namespace adit {
+namespace {
+
+/// Stretches that hold all pieces but a twentieth at either end.
+std::size_t overlap_of(const SlopesAlong& slopes) {
+  const double all = slopes.all().pieces;
+  double seen = 0.0;
+  std::size_t overlap = 0;
+  for (const Slopes& stretch : slopes.stretches) {
+    seen += stretch.pieces;
+    if (seen > 0.05 * all && seen - stretch.pieces < 0.95 * all) ++overlap;
+  }
+  return overlap;
+}
+
+std::size_t strongest(const SlopesAlong& slopes, std::size_t many) {
+  std::size_t best = 0;
+  for (std::size_t first = 1; first + many <= SlopesAlong::count; ++first)
+    if (slopes.of(first, many).common > slopes.of(best, many).common) best = first;
+  return best;
+}
+
+}  // namespace
+
+Stretch lone_witness(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                     const Eigen::Vector3d& axis, Progress& progress) {
+  constexpr double longest_m = 4.0, beside_m = 0.35;
+  const double size_m = piece_of(target, source);
+  const SurfaceMap& of_target = target.surface(size_m);
+  const SurfaceMap& of_source = source.surface(size_m);
+  const double near_m =
+      2.0 * tukey_reach_m(surface_matches(of_target, of_source, target_from_source, progress), size_m);
+  const auto slopes_at = [&](double shift_m) {
+    progress.check();
+    const Pose moved = Eigen::Translation3d(shift_m * axis) * target_from_source;
+    return slopes_along(of_target, of_source, moved, axis, near_m, enough_slopes);
+  };
+  const SlopesAlong here = slopes_at(0.0);
+  const auto longest = static_cast<std::size_t>(longest_m / SlopesAlong::length_m);
+  const std::size_t many = std::clamp<std::size_t>(overlap_of(here) / 3, 1, longest);
+  const std::size_t first = strongest(here, many);
+  const auto of_rest = [&](const SlopesAlong& slopes) {
+    Slopes rest = slopes.all();
+    rest -= slopes.of(first, many);
+    return rest.likeness();
+  };
+  const double beside = std::max(0.0, 0.5 * (of_rest(slopes_at(-beside_m)) + of_rest(slopes_at(beside_m))));
+  if (of_rest(here) - beside >= least_likeness) return {};
+  return {SlopesAlong::begin_m(first), SlopesAlong::begin_m(first + many)};
+}
+
+}  // namespace adit
