@@ -1,8 +1,10 @@
 #include "render/overlap_drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
+#include <vector>
 
 #include "render/map_signs.h"
 #include "render/number_text.h"
@@ -51,17 +53,23 @@ void draw_points(Canvas& canvas, const Window& window, const OverlapSection& sec
   canvas.frame(window.rect, {colours::light_grey, 0.2, {}});
 }
 
-/// The place nearest to a direction from the centre that both scans have: the middle of a detail. The target's points
-/// are asked for one of the source's within a hand's breadth.
-Eigen::Vector2d meeting_place(const OverlapSection& section, const Eigen::Vector2d& direction) {
-  constexpr std::size_t looked_at = 400;
+/// A place that both scans have, by where it lies from the centre.
+struct Place {
+  const char* words;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+};
+
+/// The place farthest to a side, within 45 degrees of it; nothing where they do not meet there. The target's points are
+/// asked for one of the source's within a hand's breadth.
+std::optional<Eigen::Vector2d> meeting_place(const OverlapSection& section, const Eigen::Vector2d& side) {
+  constexpr std::size_t looked_at = 1000;
   constexpr float near_m = 0.1F;
-  Eigen::Vector2d best = Eigen::Vector2d::Zero();
-  double most = -std::numeric_limits<double>::max();
+  std::optional<Eigen::Vector2d> best;
+  double most = 0.0;
   const std::size_t step = section.target.size() / looked_at + 1;
   for (std::size_t i = 0; i < section.target.size(); i += step) {
     const Eigen::Vector2f& p = section.target[i];
-    const double towards = direction.dot(p.cast<double>()) - std::abs(direction.x() * p.y() - direction.y() * p.x());
+    const double towards = side.dot(p.cast<double>()) - std::abs(side.x() * p.y() - side.y() * p.x());
     if (towards <= most) continue;
     const bool met = std::any_of(section.source.begin(), section.source.end(),
                                  [&](const Eigen::Vector2f& q) { return (p - q).norm() < near_m; });
@@ -70,6 +78,20 @@ Eigen::Vector2d meeting_place(const OverlapSection& section, const Eigen::Vector
     best = p.cast<double>();
   }
   return best;
+}
+
+/// Above and to the right, or at the other sides where the scans do not meet there; two at most, apart.
+std::vector<Place> meeting_places(const OverlapSection& section) {
+  const std::array<Place, 4> sides{
+      {{"above", {0.0, 1.0}}, {"right", {1.0, 0.0}}, {"left", {-1.0, 0.0}}, {"below", {0.0, -1.0}}}};
+  std::vector<Place> places;
+  for (const Place& side : sides) {
+    const auto met = meeting_place(section, side.middle);
+    const bool apart = met && std::all_of(places.begin(), places.end(),
+                                          [&](const Place& other) { return (other.middle - *met).norm() > detail_m; });
+    if (apart && places.size() < 2) places.push_back({side.words, *met});
+  }
+  return places;
 }
 
 }  // namespace
@@ -89,16 +111,17 @@ void draw_overlap(Canvas& canvas, const Rect& rect, const PairSection& shown) {
     const double scale = 0.95 * std::min(whole.width / size.x(), whole.height / size.y());
     draw_points(canvas, {whole, box.center(), scale}, section, 0.12);
     draw_scale_bar(canvas, {whole.left + 1.0, whole.bottom() - 1.0}, scale, 0.3 * whole.width, 1.9);
-    for (int i = 0; i < 2; ++i) {
-      const Eigen::Vector2d place =
-          meeting_place(section, i == 0 ? Eigen::Vector2d::UnitY() : Eigen::Vector2d::UnitX());
-      const Rect detail{whole.right() + 1.5, rect.top + i * (side + 1.0), side, side};
-      draw_points(canvas, {detail, place, side / detail_m}, section, 0.25);
-      const PaperPoint at = Window{whole, box.center(), scale}.paper(place.cast<float>());
+    Rect detail{whole.right() + 1.5, rect.top, side, side};
+    for (const Place& place : meeting_places(section)) {
+      draw_points(canvas, {detail, place.middle, side / detail_m}, section, 0.25);
+      const PaperPoint at = Window{whole, box.center(), scale}.paper(place.middle.cast<float>());
       const double half = 0.5 * detail_m * scale;
+      canvas.save();
+      canvas.clip(whole);
       canvas.frame({at.x() - half, at.y() - half, 2.0 * half, 2.0 * half}, {colours::grey, 0.2, {}});
-      canvas.text({detail.left + 0.6, detail.top + 0.4}, i == 0 ? "above" : "right",
-                  {.size_mm = 1.9, .colour = colours::grey});
+      canvas.restore();
+      canvas.text({detail.left + 0.6, detail.top + 0.4}, place.words, {.size_mm = 1.9, .colour = colours::grey});
+      detail.top += side + 1.0;
     }
   }
   const PairResult& pair = shown.pair;

@@ -15,8 +15,9 @@ struct PairSection {
   OverlapSection section;
 };
 
-/// The whole section, and beside it two places 0.4 m wide, above and to the right, where millimetres show.
-/// Blue: the scan that was laid on; orange: the one laid. Names and figures beneath.
+/// The whole section, and beside it two places 0.4 m wide, above and to the right (or at the other sides where the
+/// scans do not meet there), where millimetres show. Blue: the scan that was laid on; orange: the one laid. Names and
+/// figures beneath.
 void draw_overlap(Canvas& canvas, const Rect& rect, const PairSection& shown);
 
 /// The same as a picture of its own.

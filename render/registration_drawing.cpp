@@ -46,7 +46,9 @@ void draw_pair_bars(Canvas& canvas, const Rect& rect, std::vector<PairResult> pa
                 pair.used ? Colour{0.35, 0.55, 0.75} : colours::light_grey);
     const double median = area.paper_x(1000.0 * pair.median_m);
     canvas.line({median, y - 1.3}, {median, y + 1.3}, {colours::black, 0.4, {}});
-    canvas.text({area.paper_x(1000.0 * pair.rms_m) + 0.8, y},
+    const double end = area.paper_x(1000.0 * pair.rms_m);
+    const double words_mm = pair.used ? 7.0 : 17.0;  // beside the frame where they would run through it
+    canvas.text({(end + words_mm > area.rect.right() ? std::max(end, area.rect.right()) : end) + 0.8, y},
                 fixed(1000.0 * pair.rms_m, 1) + (pair.used ? "" : " not used"),
                 {.size_mm = text_mm, .down = Down::middle});
   }

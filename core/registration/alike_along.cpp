@@ -113,8 +113,9 @@ void judge(std::vector<PlaceAlong>& places, const PreparedScan& target, const Pr
   const double fine_m = piece_of(target, source);
   for (PlaceAlong& one : places) {
     one.fit = check_fit(target, source, one.target_from_source);
-    one.spread_m = tukey_reach_m(
-        surface_matches(target.surface(fine_m), source.surface(fine_m), one.target_from_source, progress), fine_m);
+    one.spread_m = tukey_reach_m(surface_matches(target.surface(fine_m), source.surface(fine_m), one.target_from_source,
+                                                 progress, enough_slopes),
+                                 fine_m);
   }
 }
 

@@ -30,13 +30,11 @@ std::size_t strongest(const SlopesAlong& slopes, std::size_t many) {
 }  // namespace
 
 Stretch lone_witness(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                     const Eigen::Vector3d& axis, Progress& progress) {
+                     const Eigen::Vector3d& axis, double near_m, Progress& progress) {
   constexpr double longest_m = 4.0, beside_m = 0.35;
   const double size_m = piece_of(target, source);
   const SurfaceMap& of_target = target.surface(size_m);
   const SurfaceMap& of_source = source.surface(size_m);
-  const double near_m =
-      2.0 * tukey_reach_m(surface_matches(of_target, of_source, target_from_source, progress), size_m);
   const auto slopes_at = [&](double shift_m) {
     progress.check();
     const Pose moved = Eigen::Translation3d(shift_m * axis) * target_from_source;

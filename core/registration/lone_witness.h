@@ -9,9 +9,9 @@
 namespace adit {
 
 /// The stretch (4 m, or a third of a shorter overlap) that alone tells "along": the surfaces outside it slope together
-/// no more than they do 0.35 m farther along. Empty where others bear it out. From the target's origin. Axis: unit,
-/// target's frame.
+/// no more than they do 0.35 m farther along. Empty where others bear it out. near_m: surfaces farther apart do not
+/// meet. Axis: unit, target's frame; the stretch is measured along it from the target's origin.
 Stretch lone_witness(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                     const Eigen::Vector3d& axis, Progress& progress);
+                     const Eigen::Vector3d& axis, double near_m, Progress& progress);
 
 }  // namespace adit

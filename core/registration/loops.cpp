@@ -6,69 +6,74 @@
 namespace adit {
 namespace {
 
-/// How each node was reached from the one before.
+/// How a node was reached from the one before.
 struct Reached {
   std::size_t from = 0;
   PairLoop::Part part;
-  std::size_t depth = 0;
 };
 using Tree = std::vector<std::optional<Reached>>;
 
-/// Breadth first, so that loops are short.
-void grow(Tree& tree, std::vector<bool>& in_tree, std::size_t root, const std::vector<GraphPair>& pairs) {
+/// Breadth first over those pairs that are walkable, as far as they go: the shortest way to each node.
+Tree tree_from(std::size_t root, std::size_t nodes, const std::vector<GraphPair>& pairs,
+               const std::vector<bool>& walkable) {
+  Tree tree(nodes);
+  tree[root] = Reached{root, {}};
   std::vector<std::size_t> front{root};
-  tree[root] = Reached{root, {}, 0};
   while (!front.empty()) {
     std::vector<std::size_t> next;
     for (const std::size_t at : front)
       for (std::size_t k = 0; k < pairs.size(); ++k) {
         const bool forward = pairs[k].source == at;
-        if (!forward && pairs[k].target != at) continue;
+        if (!walkable[k] || (!forward && pairs[k].target != at)) continue;
         const std::size_t to = forward ? pairs[k].target : pairs[k].source;
         if (tree[to]) continue;
-        tree[to] = Reached{at, {k, forward}, tree[at]->depth + 1};
-        in_tree[k] = true;
+        tree[to] = Reached{at, {k, forward}};
         next.push_back(to);
       }
     front = std::move(next);
   }
+  return tree;
 }
 
-/// From the pair's source over the pair to its target and back through the tree.
-PairLoop loop_over(std::size_t pair, const std::vector<GraphPair>& pairs, const Tree& tree) {
-  std::size_t ahead = pairs[pair].target;
-  std::size_t behind = pairs[pair].source;
-  std::vector<PairLoop::Part> up{{pair, true}}, down;
-  std::vector<std::size_t> up_nodes{ahead}, down_nodes;
-  while (ahead != behind) {
-    if (tree[ahead]->depth >= tree[behind]->depth) {
-      up.push_back({tree[ahead]->part.pair, !tree[ahead]->part.forward});
-      ahead = tree[ahead]->from;
-      up_nodes.push_back(ahead);
-    } else {
-      down.push_back(tree[behind]->part);
-      down_nodes.push_back(behind);
-      behind = tree[behind]->from;
+/// Pairs of a tree over each group of nodes.
+std::vector<bool> spanning(std::size_t nodes, const std::vector<GraphPair>& pairs) {
+  std::vector<bool> spans(pairs.size(), false), seen(nodes, false);
+  for (std::size_t root = 0; root < nodes; ++root) {
+    if (seen[root]) continue;
+    const Tree tree = tree_from(root, nodes, pairs, std::vector<bool>(pairs.size(), true));
+    for (std::size_t node = 0; node < nodes; ++node) {
+      if (!tree[node]) continue;
+      seen[node] = true;
+      if (node != root) spans[tree[node]->part.pair] = true;
     }
   }
-  std::reverse(down.begin(), down.end());
-  std::reverse(down_nodes.begin(), down_nodes.end());
-  PairLoop loop{up, up_nodes};
-  loop.parts.insert(loop.parts.end(), down.begin(), down.end());
-  loop.nodes.insert(loop.nodes.end(), down_nodes.begin(), down_nodes.end());
+  return spans;
+}
+
+/// From the pair's source over the pair to its target, and back the shortest way.
+PairLoop loop_over(std::size_t pair, std::size_t nodes, const std::vector<GraphPair>& pairs,
+                   const std::vector<bool>& walkable) {
+  const std::size_t source = pairs[pair].source;
+  const Tree tree = tree_from(source, nodes, pairs, walkable);
+  PairLoop loop{{{pair, true}}, {pairs[pair].target}};
+  for (std::size_t at = pairs[pair].target; at != source; at = tree[at]->from) {
+    loop.parts.push_back({tree[at]->part.pair, !tree[at]->part.forward});
+    loop.nodes.push_back(tree[at]->from);
+  }
   return loop;
 }
 
 }  // namespace
 
 std::vector<PairLoop> loops_of(std::size_t nodes, const std::vector<GraphPair>& pairs) {
-  Tree tree(nodes);
-  std::vector<bool> in_tree(pairs.size(), false);
-  for (std::size_t node = 0; node < nodes; ++node)
-    if (!tree[node]) grow(tree, in_tree, node, pairs);
+  const std::vector<bool> spans = spanning(nodes, pairs);
+  std::vector<bool> walkable = spans;
   std::vector<PairLoop> loops;
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (!in_tree[k]) loops.push_back(loop_over(k, pairs, tree));
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (spans[k]) continue;
+    loops.push_back(loop_over(k, nodes, pairs, walkable));
+    walkable[k] = true;
+  }
   return loops;
 }
 

@@ -17,7 +17,7 @@ struct PairLoop {
   std::vector<std::size_t> nodes;  ///< in the order they are met
 };
 
-/// One loop for each pair beyond those that a tree needs.
+/// One loop for each pair beyond those that a tree needs: the shortest over the tree and the pairs before it.
 std::vector<PairLoop> loops_of(std::size_t nodes, const std::vector<GraphPair>& pairs);
 
 /// How far from where it began a walk around the loop ends; the identity when the pairs agree.

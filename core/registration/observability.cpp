@@ -104,22 +104,19 @@ Known known_of(std::span<const SurfaceMatch> matches, double tukey_m, const Matr
   // otherwise be known along itself.
   constexpr double least_normal_error = 1e-3;
   constexpr std::size_t enough_cubes = 24;  // of fewer, in small rooms, no spread can be told
-  constexpr std::array<double, 3> sizes_m{1.0, 2.0, 4.0};
+  constexpr std::size_t sizes = 3;          // 1, 2 and 4 m
   const NormalEquations equations = normal_equations(matches, tukey_m);
   const auto in_metres = [&](const Matrix6d& matrix) { return Matrix6d(columns.transpose() * matrix * columns); };
   Known known{
       in_metres(equations.hessian),
       in_metres(equations.noise) + least_normal_error * least_normal_error * equations.weight * Matrix6d::Identity(),
-      std::vector<std::vector<CubeSums>>(sizes_m.size()),
+      {sums_by_cubes(matches, tukey_m, 1.0)},
       std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.3, 1.0)};
-  const auto sum_up = [&](std::size_t i) {
-    known.cubes[i] = sums_by_cubes(matches, tukey_m, sizes_m[i]);
-    for (CubeSums& cube : known.cubes[i]) {
-      cube.hessian = in_metres(cube.hessian);
-      cube.gradient = columns.transpose() * cube.gradient;
-    }
-  };
-  parallel_for_each_index(sizes_m.size(), sum_up, 1);
+  for (CubeSums& cube : known.cubes.front()) {
+    cube.hessian = in_metres(cube.hessian);
+    cube.gradient = columns.transpose() * cube.gradient;
+  }
+  while (known.cubes.size() < sizes) known.cubes.push_back(with_double_cubes(known.cubes.back()));
   while (known.cubes.size() > 1 && known.cubes.back().size() < enough_cubes) known.cubes.pop_back();
   return known;
 }

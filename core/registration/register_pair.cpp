@@ -225,7 +225,10 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   if (held[along]) pair.alike_m = 0.0;  // smooth walls: what is alike there is noise
   // Where it fits elsewhere as well, it stays where the surfaces meet: the adjustment holds it at the guess.
   const HeldDirections at_guess = held;
-  if (!held[along] && pair.alike_m == 0.0) pair.lone_witness = lone_witness(target, source, pose, axis_in_target, last);
+  if (!held[along] && pair.alike_m == 0.0) {
+    const double near_m = 2.0 * tukey_reach_m(judged.matches, piece_of(target, source));
+    pair.lone_witness = lone_witness(target, source, pose, axis_in_target, near_m, last);
+  }
   held[along] = held[along] || pair.alike_m != 0.0 || !pair.lone_witness.is_empty();
   if (held != HeldDirections{}) {
     pose = refined(target, source, put_back(guess, pose, at_guess, judged.known.ways, axes), held, axes, options, last);

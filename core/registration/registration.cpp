@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "core/foundation/angle.h"
@@ -69,6 +70,13 @@ std::string how_placed(const Node& node, bool has_pairs, bool is_datum) {
   return "guess";
 }
 
+/// What nothing ties has a sigma as large as numbers go: 100 m and 180 degrees say the same.
+PoseSigma no_more_than_unknown(const PoseSigma& sigma) {
+  constexpr double most_m = 100.0;
+  return {std::min(sigma.along_m, most_m), std::min(sigma.across_m, most_m), std::min(sigma.up_m, most_m),
+          std::min(sigma.roll_rad, pi),    std::min(sigma.pitch_rad, pi),    std::min(sigma.yaw_rad, pi)};
+}
+
 void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
                  const PoseGraph& graph, const PoseGraphResult& solved, const RegistrationContext& context,
                  const RegistrationOptions& options) {
@@ -78,18 +86,21 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
     bool has_pairs = false, knows_all = true;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       if (!result.pairs[k].used || (candidates[k].source != i && candidates[k].target != i)) continue;
+      if (result.pairs[k].undetermined.size() == std::size(direction_names)) continue;  // says nothing
       has_pairs = true;
       knows_all = knows_all && result.pairs[k].undetermined.empty();
     }
     scan.placed = true;
     scan.local_from_scan = solved.local_from_scan[i];
-    scan.sigma = sigma_in_axes(result.sigma_factor * result.sigma_factor * solved.covariance[i],
-                               tunnel_axes(axis_at(context, nodes[i], solved.local_from_scan[i])));
+    scan.sigma =
+        no_more_than_unknown(sigma_in_axes(result.sigma_factor * result.sigma_factor * solved.covariance[i],
+                                           tunnel_axes(axis_at(context, nodes[i], solved.local_from_scan[i]))));
     scan.placed_by = how_placed(nodes[i], has_pairs, graph.datum == i);
     if (!tied[i]) {
       result.findings.push_back({Severity::decision, "scan " + scan.name,
-                                 "no overlap and no control ties it to the other scans; it stands at its guess",
-                                 "check its guess, or survey three targets"});
+                                 "no pair and no control ties it to the other scans; it stands at its guess",
+                                 "check its guess and registration.pair_distance_m and least_overlap, or survey three "
+                                 "targets"});
     }
     const bool held = nodes[i].by == Node::By::guess && !(has_pairs && knows_all);
     name_undetermined(scan, held, options, result.findings);
@@ -122,14 +133,26 @@ void keep_used(RegistrationResult& result, std::vector<Node>& nodes, const Adjus
     if (adjustment.control_used[c]) nodes[graph.control[c].node].control.push_back(graph.control[c]);
 }
 
-std::vector<LoopClosure> loop_closures(const PoseGraph& before, const PoseGraph& after,
+/// Of the pairs that know every direction: the others were told by guesses. pairs: those of the graphs, in their order.
+std::vector<GraphPair> knowing_pairs(const PoseGraph& graph, const std::vector<PairResult>& pairs) {
+  std::vector<GraphPair> knowing;
+  std::size_t k = 0;
+  for (const PairResult& pair : pairs) {
+    if (!pair.used) continue;
+    if (pair.undetermined.empty()) knowing.push_back(graph.pairs[k]);
+    ++k;
+  }
+  return knowing;
+}
+
+std::vector<LoopClosure> loop_closures(const std::vector<GraphPair>& before, const std::vector<GraphPair>& after,
                                        const std::vector<Node>& nodes) {
   std::vector<LoopClosure> closures;
-  for (const PairLoop& loop : loops_of(nodes.size(), before.pairs)) {
+  for (const PairLoop& loop : loops_of(nodes.size(), before)) {
     LoopClosure closure;
     for (const std::size_t node : loop.nodes) closure.scans.push_back(nodes[node].prepared->name);
-    const Pose open = closure_of(loop, before.pairs);
-    const Pose left = closure_of(loop, after.pairs);
+    const Pose open = closure_of(loop, before);
+    const Pose left = closure_of(loop, after);
     closure.before_m = open.translation().norm();
     closure.before_rad = rotation_between_rad(open, Pose::Identity());
     closure.after_m = left.translation().norm();
@@ -193,8 +216,11 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
                                     ? refine_jointly(graph, adjustment, nodes, result.pairs, context, adjusting)
                                     : JointRefinement{used_part(graph, adjustment), adjustment.solved};
   result.sigma_factor = sigma_factor_of(used_part(graph, adjustment), adjustment.solved);
-  result.loops = loop_closures(used_part(graph, adjustment), joint.graph, nodes);
+  result.loops = loop_closures(knowing_pairs(used_part(graph, adjustment), result.pairs),
+                               knowing_pairs(joint.graph, result.pairs), nodes);
+  report_loops(result, options);
   place_nodes(result, nodes, candidates, graph, joint.solved, context, options);
+  compare_guesses_with_control(result, nodes, options);
   report_control(result, adjustment, joint.solved, graph, nodes, options);
   if (graph.datum) result.datum_scan = nodes[*graph.datum].prepared->name;
   judge_datum(result, nodes, known, options);

@@ -202,6 +202,41 @@ void compare_with_guess(const PlacedScan& scan, const Node& node, const Registra
       {severity, "scan " + scan.name, words, "check its pose in job.json and look at the scans from above"});
 }
 
+void report_loops(RegistrationResult& result, const RegistrationOptions& options) {
+  constexpr double lever_m = 5.0;
+  for (const LoopClosure& loop : result.loops) {
+    if (std::max(loop.before_m, lever_m * loop.before_rad) <= options.undetermined_sigma_m) continue;
+    char words[200];
+    std::snprintf(words, sizeof words,
+                  "the pairs around it leave %.0f mm and %.2f degrees open, all refined together %.0f mm and %.2f",
+                  1e3 * loop.before_m, deg_from_rad(loop.before_rad), 1e3 * loop.after_m, deg_from_rad(loop.after_rad));
+    result.findings.push_back({Severity::warning, "loop " + listed(loop.scans), words,
+                               "look at the overlap pictures of these scans: a scanner may bend what it sees, or "
+                               "something moved"});
+  }
+}
+
+void compare_guesses_with_control(RegistrationResult& result, const std::vector<Node>& nodes,
+                                  const RegistrationOptions& options) {
+  std::size_t guessed = 0, far = 0, controlled = 0;
+  double least_m = 1e300;
+  for (const Node& node : nodes) {
+    controlled += node.control.size();
+    if (node.by != Node::By::guess) continue;
+    ++guessed;
+    const double off_m = distance_between_m(node.start, result.scans[node.scan].local_from_scan);
+    if (off_m > 3.0 * options.guess_sigma_m) ++far;
+    least_m = std::min(least_m, off_m);
+  }
+  if (controlled == 0 || guessed < 2 || far < guessed) return;
+  char words[160];
+  std::snprintf(words, sizeof words,
+                "all %zu scans with a guess stand %.1f m and more from it: control and guesses are not of one place",
+                far, least_m);
+  result.findings.push_back(
+      {Severity::decision, "control", words, "check the coordinates in the control file and the poses in job.json"});
+}
+
 void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,
                  const RegistrationOptions& options) {
   if (!result.in_site) {

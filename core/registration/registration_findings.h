@@ -26,6 +26,13 @@ void name_undetermined(PlacedScan& scan, bool held, const RegistrationOptions& o
 void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,
                         Findings& findings);
 
+/// Loops that pairs which know every direction leave open by more than a direction may be unknown.
+void report_loops(RegistrationResult& result, const RegistrationOptions& options);
+
+/// Control that no guess agrees with: one mistake moves everything, and nothing within the survey contradicts it.
+void compare_guesses_with_control(RegistrationResult& result, const std::vector<Node>& nodes,
+                                  const RegistrationOptions& options);
+
 /// With fewer than three targets in all the place of the whole survey is only as good as the guess of its datum scan,
 /// and so is every number against a design.
 void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,

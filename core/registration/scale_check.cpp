@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 namespace adit {
 namespace {
@@ -25,6 +26,15 @@ struct Equations {
   Vector7d gradient = Vector7d::Zero();
 };
 
+/// Evenly taken.
+std::vector<SurfaceMatch> part_of(std::span<const SurfaceMatch> matches) {
+  constexpr std::size_t enough = 8192;
+  const std::size_t step = matches.size() / enough + 1;
+  std::vector<SurfaceMatch> part;
+  for (std::size_t i = 0; i < matches.size(); i += step) part.push_back(matches[i]);
+  return part;
+}
+
 /// Weighted as the residuals are after `moved`.
 Equations equations_after(std::span<const SurfaceMatch> matches, const Vector7d& moved, double tukey_m) {
   Equations sums;
@@ -43,16 +53,20 @@ Equations equations_after(std::span<const SurfaceMatch> matches, const Vector7d&
 
 }  // namespace
 
-ScaleCheck check_scale(std::span<const SurfaceMatch> matches, double tukey_m) {
+ScaleCheck check_scale(std::span<const SurfaceMatch> all, double tukey_m) {
   constexpr double cube_m = 2.0;
   constexpr int most_steps = 10;
-  if (matches.size() < least_matches) return {};
+  constexpr double still = 1e-7;
+  if (all.size() < least_matches) return {};
+  const std::vector<SurfaceMatch> matches = part_of(all);
   Vector7d moved = Vector7d::Zero();
   Equations equations = equations_after(matches, moved, tukey_m);
   for (int i = 0; i < most_steps; ++i) {
     if (!(equations.hessian(growth, growth) > 0.0)) return {};
-    moved -= equations.hessian.ldlt().solve(equations.gradient);
+    const Vector7d step = equations.hessian.ldlt().solve(equations.gradient);
+    moved -= step;
     equations = equations_after(matches, moved, tukey_m);
+    if (std::abs(step[growth]) < still) break;
   }
   // The growth that the pose does not follow (Frisch and Waugh 1933).
   Vector7d own = Vector7d::Unit(growth);

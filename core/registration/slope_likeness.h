@@ -45,7 +45,7 @@ SlopesAlong slopes_along(const SurfaceMap& target, const SurfaceMap& source, con
                          const Eigen::Vector3d& axis, double near_m, std::size_t enough);
 
 /// Enough to tell two places apart.
-inline constexpr std::size_t enough_slopes = 20000;
+inline constexpr std::size_t enough_slopes = 12000;
 /// A likeness of less noise alone has as much.
 inline constexpr double least_likeness = 0.03;
 

@@ -56,12 +56,21 @@ class Surface {
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
 };
 
+CubeSums empty_cube(std::uint64_t key) {
+  CubeSums cube;
+  cube.key = key;
+  return cube;
+}
+
 /// Whether one scanner stands before the surface and one behind it; a surface seen along itself says neither.
 bool is_of_two_sides(const SurfaceMatch& match, const Eigen::Vector3d& place) {
   constexpr double grazing = 0.1;
-  const double of_source = match.arm.normalized().dot(match.normal);
-  const double of_target = place.normalized().dot(match.normal);
-  return of_source * of_target < 0.0 && std::min(std::abs(of_source), std::abs(of_target)) > grazing;
+  const double of_source = match.arm.dot(match.normal);
+  const double of_target = place.dot(match.normal);
+  const auto is_clear = [](double of, const Eigen::Vector3d& ray) {
+    return of * of > grazing * grazing * ray.squaredNorm();
+  };
+  return of_source * of_target < 0.0 && is_clear(of_source, match.arm) && is_clear(of_target, place);
 }
 
 }  // namespace
@@ -77,15 +86,16 @@ Meeting meeting_of(const SurfaceMap& target, const SurfacePiece& piece, const Po
 }
 
 std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, const SurfaceMap& source,
-                                          const Pose& target_from_source, Progress& progress) {
-  const std::span<const SurfacePiece> pieces(source.pieces());
+                                          const Pose& target_from_source, Progress& progress, std::size_t enough) {
+  const std::vector<SurfacePiece>& pieces = source.pieces();
+  const std::size_t step = 1 + pieces.size() / std::max<std::size_t>(enough, 1);
   const bool from_origins = target.seen_from_origin() && source.seen_from_origin();
-  return parallel_ordered_list(pieces.size(), 1024, [&](std::size_t begin, std::size_t end) {
+  return parallel_ordered_list((pieces.size() + step - 1) / step, 1024, [&](std::size_t begin, std::size_t end) {
     progress.check();
     std::vector<SurfaceMatch> matches;
     matches.reserve(end - begin);
-    for (const SurfacePiece& piece : pieces.subspan(begin, end - begin))
-      if (const auto match = meeting_of(target, piece, target_from_source, from_origins).match)
+    for (std::size_t i = begin; i < end; ++i)
+      if (const auto match = meeting_of(target, pieces[i * step], target_from_source, from_origins).match)
         matches.push_back(*match);
     return matches;
   });
@@ -127,7 +137,7 @@ std::vector<CubeSums> sums_by_cubes(std::span<const SurfaceMatch> matches, doubl
   std::sort(by_cube.begin(), by_cube.end());
   std::vector<CubeSums> cubes;
   for (std::size_t n = 0; n < by_cube.size(); ++n) {
-    if (n == 0 || by_cube[n - 1].first != by_cube[n].first) cubes.emplace_back();
+    if (n == 0 || by_cube[n - 1].first != by_cube[n].first) cubes.push_back(empty_cube(by_cube[n].first));
     const SurfaceMatch& match = matches[by_cube[n].second];
     const Vector6d j = jacobian_of(match);
     const Vector6d weighted = tukey_weight(match.residual_m, tukey_m) * j;
@@ -135,6 +145,17 @@ std::vector<CubeSums> sums_by_cubes(std::span<const SurfaceMatch> matches, doubl
     cubes.back().gradient += match.residual_m * weighted;
   }
   return cubes;
+}
+
+std::vector<CubeSums> with_double_cubes(const std::vector<CubeSums>& cubes) {
+  std::vector<CubeSums> doubled;
+  for (const CubeSums& cube : cubes) {
+    const std::uint64_t key = cube.key >> 3;  // along a Morton curve eight follow one another
+    if (doubled.empty() || doubled.back().key != key) doubled.push_back(empty_cube(key));
+    doubled.back().hessian += cube.hessian;
+    doubled.back().gradient += cube.gradient;
+  }
+  return doubled;
 }
 
 }  // namespace adit

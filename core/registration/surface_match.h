@@ -1,6 +1,7 @@
 #pragma once
 // Pieces of two scans' surfaces laid upon each other, and what the distances between them say about the pose.
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,8 +39,10 @@ Meeting meeting_of(const SurfaceMap& target, const SurfacePiece& piece, const Po
 /// 2008),
 ///   residual = sum w n . (q - t) / sum w,   n = (n_t + R n_s) / 2,
 /// the normals of both sides halved (the symmetric metric of Rusinkiewicz 2019: exact on surfaces that curve).
+/// enough: so many source pieces or a few less, evenly taken; all by default.
 std::vector<SurfaceMatch> surface_matches(const SurfaceMap& target, const SurfaceMap& source,
-                                          const Pose& target_from_source, Progress& progress);
+                                          const Pose& target_from_source, Progress& progress,
+                                          std::size_t enough = std::numeric_limits<std::size_t>::max());
 
 /// [arm x n, n]: what a turn [rad] about the source's origin and a shift do to the residual.
 inline Vector6d jacobian_of(const SurfaceMatch& match) {
@@ -77,10 +80,14 @@ NormalEquations normal_equations(std::span<const SurfaceMatch> matches, double t
 
 /// Sums over the matches of one cube of space, weighted as those of NormalEquations.
 struct CubeSums {
+  std::uint64_t key = 0;  ///< cell_key
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
 };
-/// Matches summed up by cubes of edge cube_m, within which surfaces may err together. In a fixed order.
+/// Matches summed up by cubes of edge cube_m, within which surfaces may err together. In the order of their keys.
 std::vector<CubeSums> sums_by_cubes(std::span<const SurfaceMatch> matches, double tukey_m, double cube_m);
+
+/// The sums of cubes twice as large.
+std::vector<CubeSums> with_double_cubes(const std::vector<CubeSums>& cubes);
 
 }  // namespace adit

@@ -85,7 +85,7 @@ std::vector<std::string> absent_parts(const ReportContent& content) {
   std::vector<std::string> absent;
   if (results.registration.pairs.empty()) absent.push_back("pairs of scans (one scan, or none that overlap)");
   if (results.registration.control.empty()) absent.push_back("control (no targets on control points)");
-  if (content.design == nullptr) absent.push_back("design lines (no design)");
+  if (content.design == nullptr) absent.push_back("design lines (nothing was compared with a design)");
   if (!results.profile || results.profile->sections.empty()) absent.push_back("sections (no profile step)");
   if (content.map == nullptr || content.map->cells.empty()) absent.push_back("deviation map");
   if (!results.volume || results.volume->lines.empty()) absent.push_back("volumes (no volume step)");

@@ -243,5 +243,19 @@ TEST(Loops, OfFourScansInARingLeaveWhatThePairsLeave) {
   for (const PairLoop& loop : loops) EXPECT_EQ(loop.parts.size(), loop.nodes.size());
 }
 
+TEST(Loops, OfALongChainAreShort) {
+  std::vector<GraphPair> pairs;
+  for (std::size_t i = 0; i + 1 < 30; ++i) {
+    pairs.push_back({i + 1, i, make_pose({5, 0, 0}, {}), Matrix6d::Identity()});
+    if (i + 2 < 30) pairs.push_back({i + 2, i, make_pose({10, 0, 0}, {}), Matrix6d::Identity()});
+  }
+  const std::vector<PairLoop> loops = loops_of(30, pairs);
+  EXPECT_EQ(loops.size(), pairs.size() - 29);
+  for (const PairLoop& loop : loops) {
+    EXPECT_EQ(loop.nodes.size(), 3U);
+    EXPECT_LT(closure_of(loop, pairs).translation().norm(), 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace adit
