@@ -1,19 +1,15 @@
 #include "core/registration/register_pair.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 
 #include "core/foundation/angle.h"
-#include "core/foundation/parallel.h"
-#include "core/geometry/statistics.h"
 #include "core/registration/alike_along.h"
 #include "core/registration/fit_check.h"
 #include "core/registration/lone_witness.h"
 #include "core/registration/ndt.h"
 #include "core/registration/pair_refinement.h"
-#include "core/registration/scale_check.h"
+#include "core/registration/pair_sheet.h"
 
 namespace adit {
 namespace {
@@ -65,22 +61,24 @@ LikestPlace likest_near(const PreparedScan& target, const PreparedScan& source, 
 /// twice more. Simulated rock has 0.75 to 0.95.
 constexpr double well_agreeing = 0.7;
 
-/// Of a pair at a pose, (rotation, translation) to where it ends otherwise: begun on large pieces, and with target and
-/// source exchanged.
-std::vector<Vector6d> other_answers(const PreparedScan& target, const PreparedScan& source, const Pose& pose,
-                                    const Pose& guess, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
-                                    Progress& progress) {
+/// Where such a pair ends otherwise: begun on large pieces; with target and source exchanged.
+std::vector<Pose> other_answers(const PreparedScan& target, const PreparedScan& source, const Pose& pose,
+                                const Pose& guess, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
+                                Progress& progress) {
+  if (check_fit(target, source, pose).agreeing >= well_agreeing) return {};
   const Eigen::Matrix3d axes_in_source = axes * guess.linear();
   const NdtAlignment exchanged = aligned_at(source, target, guess.inverse(), axes_in_source, options, progress);
-  std::vector<Vector6d> answers;
-  for (const Pose& other : {refined_from_large(target, source, pose, {}, axes, options, progress),
-                            exchanged.target_from_source.inverse()}) {
-    answers.emplace_back();
-    answers.back() << rotation_vector(other.linear() * pose.linear().transpose()),
-        other.translation() - pose.translation();
-  }
-  return answers;
+  return {refined_from_large(target, source, pose, {}, axes, options, progress),
+          exchanged.target_from_source.inverse()};
 }
+
+/// What is known of a pair beside its surfaces.
+struct Known {
+  HeldDirections held{};
+  std::optional<Slide> slide;
+  std::vector<Vector6d> other_answers;  ///< as errors
+  Stretch apart;                        ///< what stands there is no witness
+};
 
 /// A pose, judged by the surfaces that meet there.
 struct Judged {
@@ -88,20 +86,27 @@ struct Judged {
   PairInformation known;
 };
 Judged judge(const PreparedScan& target, const PreparedScan& source, const Pose& pose, const Eigen::Matrix3d& axes,
-             const HeldDirections& held, const std::optional<Slide>& slide, const std::vector<Vector6d>& others,
-             const Stretch& apart, const RegistrationOptions& options, Progress& progress) {
+             const Known& beside, const RegistrationOptions& options, Progress& progress) {
   const SurfaceMap& surface = target.surface(piece_of(target, source));
   Judged judged;
   judged.matches = surface_matches(surface, source.surface(surface.cell_m()), pose, progress);
   std::vector<SurfaceMatch> witnesses = judged.matches;
   std::erase_if(witnesses, [&](const SurfaceMatch& match) {
     const double along_m = axes.row(along).dot(pose.translation() + match.arm);
-    return along_m >= apart.from_m && along_m < apart.to_m;
+    return along_m >= beside.apart.from_m && along_m < beside.apart.to_m;
   });
   judged.known = judge_observability(
       witnesses, tukey_reach_m(judged.matches, surface.cell_m()), axes,
-      {options.undetermined_sigma_m, options.pair_sigma_m, options.guess_sigma_m, others}, held, slide);
+      {options.undetermined_sigma_m, options.pair_sigma_m, options.guess_sigma_m, beside.other_answers}, beside.held,
+      beside.slide);
   return judged;
+}
+
+/// (rotation, translation) from one pose to another.
+Vector6d difference(const Pose& from, const Pose& to) {
+  Vector6d result;
+  result << rotation_vector(to.linear() * from.linear().transpose()), to.translation() - from.translation();
+  return result;
 }
 
 /// How a pair that is held along the tunnel would move along it: as to where it ends when it is held elsewhere, which
@@ -129,67 +134,21 @@ PoseSigma as_guessed_where_held(const PairInformation& known, const Registration
   return sigma;
 }
 
-void measure(PairResult& pair, std::span<const SurfaceMatch> matches, const Eigen::Matrix3d& axes) {
-  std::vector<double> sizes, distances;
-  std::size_t within = 0;
-  double squares = 0.0;
-  for (const SurfaceMatch& match : matches) {
-    sizes.push_back(std::abs(match.residual_m));
-    distances.push_back(match.distance_m);
-    if (sizes.back() < 0.006) ++within;
-    squares += match.residual_m * match.residual_m;
-    pair.balance += (axes * match.normal).cwiseAbs2();
-  }
-  if (matches.empty()) return;
-  const auto n = static_cast<double>(matches.size());
-  pair.median_m = median(sizes);
-  pair.rms_m = std::sqrt(squares / n);
-  pair.median_distance_m = median(distances);
-  pair.within_6mm = static_cast<double>(within) / n;
-  pair.balance /= n;
-}
-
-void measure_scale(PairResult& pair, std::span<const SurfaceMatch> matches, double piece_m) {
-  const ScaleCheck check = check_scale(matches, tukey_reach_m(matches, piece_m));
-  pair.scale = check.scale;
-  pair.scale_sigma = check.sigma;
-}
-
-void measure_fit(PairResult& pair, const PreparedScan& target, const PreparedScan& source) {
-  const FitCheck check = check_fit(target, source, pair.target_from_source);
-  pair.agreeing = check.agreeing;
-  pair.seen_through = check.seen_through;
-  pair.overlap = overlap_at(target, source, pair.target_from_source, 0.4);
+/// Where the transform and the surfaces put it.
+Pose placed(PairResult& pair, const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
+            const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress) {
+  if (start == Start::found) return refined(target, source, guess, {}, axes, options, progress);
+  const NdtAlignment alignment = aligned_at(target, source, guess, axes, options, progress);
+  pair.iterations = alignment.iterations;
+  return alignment.target_from_source;
 }
 
 }  // namespace
 
-double overlap_at(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                  double distance_m) {
-  const auto& pieces = source.surfaces.back().pieces();
-  const DistributionMap& cells = target.pyramid.levels[target.pyramid.level_near(distance_m)];
-  const double squared_m2 = distance_m * distance_m;
-  const std::size_t near =
-      parallel_ordered_sum(pieces.size(), 4096, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
-        std::size_t count = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-          const Eigen::Vector3d place = target_from_source * pieces[i].place.cast<double>();
-          bool found = false;
-          cells.visit_near(place, [&](const NormalDistribution& cell) {
-            found = found || (cell.mean - place).squaredNorm() <= squared_m2;
-          });
-          if (found) ++count;
-        }
-        return count;
-      });
-  return static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(1, pieces.size()));
-}
-
 PairInformation pair_information(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                                  const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options,
                                  Progress& progress) {
-  return judge(target, source, target_from_source, tunnel_axes(axis_in_target), {}, {}, {}, {}, options, progress)
-      .known;
+  return judge(target, source, target_from_source, tunnel_axes(axis_in_target), {}, options, progress).known;
 }
 
 PairResult register_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
@@ -201,54 +160,44 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   const Eigen::Matrix3d axes = tunnel_axes(axis_in_target);
   Progress transform = progress.part(0.7, "");
   Progress last = progress.part(0.3, "");
-  Pose pose = guess;
-  if (start == Start::found) {
-    pose = refined(target, source, guess, {}, axes, options, transform);
-  } else {
-    const NdtAlignment alignment = aligned_at(target, source, guess, axes, options, transform);
-    pose = alignment.target_from_source;
-    pair.iterations = alignment.iterations;
-  }
-  std::optional<Slide> slide;
+  Known beside;
+  Pose pose = placed(pair, target, source, guess, start, axes, options, transform);
   if (start != Start::surveyed) {
     const double reach_m = start == Start::found ? found_reach_m : 3.0 * options.guess_sigma_m;
     const LikestPlace likest = likest_near(target, source, pose, {axis_in_target, guess, reach_m}, options, last);
     pose = likest.target_from_source;
     pair.alike_m = likest.alike_m;
-    slide = likest.slide;
+    beside.slide = likest.slide;
   }
-  std::vector<Vector6d> others;
-  if (check_fit(target, source, pose).agreeing < well_agreeing)
-    others = other_answers(target, source, pose, start == Start::guess ? guess : pose, axes, options, last);
-  Judged judged = judge(target, source, pose, axes, {}, {}, others, {}, options, last);
-  HeldDirections held = judged.known.undetermined;
-  if (held[along]) pair.alike_m = 0.0;  // smooth walls: what is alike there is noise
-  // Where it fits elsewhere as well, it stays where the surfaces meet: the adjustment holds it at the guess.
-  const HeldDirections at_guess = held;
-  if (!held[along] && pair.alike_m == 0.0) {
+  const std::vector<Pose> others =
+      other_answers(target, source, pose, start == Start::guess ? guess : pose, axes, options, last);
+  for (const Pose& other : others) beside.other_answers.push_back(difference(pose, other));
+  Judged judged = judge(target, source, pose, axes, beside, options, last);
+  const HeldDirections at_guess = judged.known.undetermined;
+  if (at_guess[along]) {
+    pair.alike_m = 0.0;  // smooth walls: what is alike there is noise
+  } else if (pair.alike_m == 0.0) {
     const double near_m = 2.0 * tukey_reach_m(judged.matches, piece_of(target, source));
-    pair.lone_witness = lone_witness(target, source, pose, axis_in_target, near_m, last);
+    beside.apart = pair.lone_witness = lone_witness(target, source, pose, axis_in_target, near_m, last);
   }
-  held[along] = held[along] || pair.alike_m != 0.0 || !pair.lone_witness.is_empty();
-  if (held != HeldDirections{}) {
-    pose = refined(target, source, put_back(guess, pose, at_guess, judged.known.ways, axes), held, axes, options, last);
-    judged = judge(target, source, pose, axes, held, slide, others, pair.lone_witness, options, last);
-    if (at_guess[along] || !pair.lone_witness.is_empty()) {
-      slide = slide_of(target, source, pose, held, judged.known.ways[along], axes, options, last);
-      judged = judge(target, source, pose, axes, held, slide, others, pair.lone_witness, options, last);
+  // Where it fits elsewhere as well, or one thing tells, it stays where surfaces meet: the adjustment holds it.
+  beside.held = at_guess;
+  beside.held[along] = at_guess[along] || pair.alike_m != 0.0 || !pair.lone_witness.is_empty();
+  if (beside.held != HeldDirections{}) {
+    pose = put_back(guess, pose, at_guess, judged.known.ways, axes);
+    pose = refined(target, source, pose, beside.held, axes, options, last);
+    judged = judge(target, source, pose, axes, beside, options, last);
+    if (beside.held[along] && pair.alike_m == 0.0) {
+      beside.slide = slide_of(target, source, pose, beside.held, judged.known.ways[along], axes, options, last);
+      judged = judge(target, source, pose, axes, beside, options, last);
     }
   }
   pair.target_from_source = pose;
   pair.sigma = as_guessed_where_held(judged.known, options);
   pair.information = judged.known.information;
-  for (std::size_t i = 0; i < held.size(); ++i)
+  for (std::size_t i = 0; i < beside.held.size(); ++i)
     if (judged.known.undetermined[i]) pair.undetermined.emplace_back(direction_names[i]);
-  const std::array<std::function<void()>, 3> sheet{
-      [&] { measure(pair, judged.matches, axes); },
-      [&] { measure_scale(pair, judged.matches, piece_of(target, source)); },
-      [&] { measure_fit(pair, target, source); }};
-  parallel_for_each_index(
-      sheet.size(), [&](std::size_t i) { sheet[i](); }, 1);
+  fill_sheet(pair, target, source, judged.matches, others, axes, last);
   return pair;
 }
 

@@ -8,10 +8,6 @@
 
 namespace adit {
 
-/// Overlap of a pair at a pose: share of the source's surface with some of the target's within distance_m.
-double overlap_at(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                  double distance_m);
-
 /// What the surfaces of a pair say about its pose there.
 PairInformation pair_information(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                                  const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options,
@@ -19,8 +15,9 @@ PairInformation pair_information(const PreparedScan& target, const PreparedScan&
 
 /// Normal distributions transform from coarse cells to fine ones, then iterative closest point between the surfaces.
 /// axis_in_target: unit direction of the tunnel in the target's frame. Directions that the clouds do not determine are
-/// put back to the guess and named. So is "along" where the pair fits as well elsewhere near (alike_along.h): within
-/// three sigmas of a guess, ten metres of a place that was found.
+/// put back to the guess and named. "Along" is so, too, where the pair fits as well elsewhere near (alike_along.h:
+/// within three sigmas of a guess, ten metres of a place that was found) and where one thing alone tells it
+/// (lone_witness.h). Pairs that do not agree well are asked twice more; what differs is an error of theirs.
 enum class Start {
   guess,    ///< as good as the options say
   found,    ///< by a search, centimetres off: is refined only

@@ -7,6 +7,7 @@
 
 #include "core/foundation/parallel.h"
 #include "core/registration/found_place.h"
+#include "core/registration/pair_sheet.h"
 
 namespace adit {
 namespace {
