@@ -9,7 +9,8 @@
 
 namespace adit::app {
 
-/// Of the used pairs, at most `most`, those with the greatest rms first.
+/// Of the pairs between placed scans, at most `most`: the used ones as they stand, those with the greatest rms first,
+/// then those that were not used, the source where the pair alone would lay it.
 std::vector<render::PairSection> pair_sections(const JobState& state, std::size_t most, const Progress& progress);
 
 }  // namespace adit::app

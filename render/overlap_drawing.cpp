@@ -133,9 +133,9 @@ void draw_overlap(Canvas& canvas, const Rect& rect, const PairSection& shown) {
   canvas.text({rect.left + 0.5 * rect.width + 2.0, rect.bottom() - words_mm + 1.0}, pair.target,
               {.size_mm = 2.1, .shorten_mm = 0.5 * rect.width - 3.0});
   canvas.text({rect.left, rect.bottom() - words_mm + 4.2},
-              "median " + fixed(1000.0 * pair.median_m, 1) + " mm; section " +
-                  fixed(2000.0 * section.half_thickness_m, 0) + " mm thick; squares " + fixed(1000.0 * detail_m, 0) +
-                  " mm wide",
+              (pair.used ? "median " : "not used, as it would lie: median ") + fixed(1000.0 * pair.median_m, 1) +
+                  " mm; section " + fixed(2000.0 * section.half_thickness_m, 0) + " mm thick; squares " +
+                  fixed(1000.0 * detail_m, 0) + " mm wide",
               small);
 }
 

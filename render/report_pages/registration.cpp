@@ -215,12 +215,10 @@ void add_pair_sections(PageFlow& flow, const ReportContent& content) {
                             {left, row.top, width_mm, height_mm});
     }
   }
-  const auto used = static_cast<std::size_t>(std::count_if(content.results->registration.pairs.begin(),
-                                                           content.results->registration.pairs.end(),
-                                                           [](const PairResult& pair) { return pair.used; }));
-  if (used > content.pair_sections.size())
+  const std::size_t all = content.results->registration.pairs.size();
+  if (all > content.pair_sections.size())
     flow.paragraph("The " + std::to_string(content.pair_sections.size()) + " pairs with the greatest rms of " +
-                       std::to_string(used) + ".",
+                       std::to_string(all) + ".",
                    colours::grey, 2.3);
 }
 
