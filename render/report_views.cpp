@@ -121,6 +121,7 @@ std::vector<ReportView> draw_views(const ReportContent& content, const GlContext
   const Path path = path_of(content);
   const double aspect = static_cast<double>(view_width) / above_height;
   const Camera inside = along_tunnel(path.start, path.ahead);
+  const bool on_axis = !local_axis(content).empty();
   const bool has_mesh = content.mesh != nullptr && !content.mesh->triangles.empty();
   const auto draw = [&](const char* name, const char* words, const Scene& scene, const Camera& camera, int height) {
     progress.check();
@@ -128,21 +129,27 @@ std::vector<ReportView> draw_views(const ReportContent& content, const GlContext
   };
   if (!content.clouds.empty()) {
     Scene scene = scene_of_scans(content);
-    draw("scans_along.png", "The scans from inside, looking up-chainage.", scene, inside, along_height);
+    draw("scans_along.png", on_axis ? "The scans from inside, looking up-chainage." : "The scans from inside.", scene,
+         inside, along_height);
     add_axis(scene, content, false);
     add_stations(scene, content);
-    draw("scans_above.png", "The scans from above, chainage to the right; a triangle at each station.", scene,
-         top_view(some_points(content, false), path.heading, aspect), above_height);
+    draw("scans_above.png",
+         on_axis ? "The scans from above, chainage to the right; a triangle at each station."
+                 : "The scans from above; a triangle at each station.",
+         scene, top_view(some_points(content, false), path.heading, aspect), above_height);
     std::swap(views[0], views[1]);
   }
   if (has_mesh) {
     Scene scene = scene_of_deviations(content);
-    draw("deviation_along.png", "The rock surface from inside, looking up-chainage, coloured by its deviation.", scene,
-         inside, along_height);
+    draw("deviation_along.png",
+         on_axis ? "The rock surface from inside, looking up-chainage, coloured by its deviation."
+                 : "The surface from inside.",
+         scene, inside, along_height);
     add_axis(scene, content, true);
     draw("deviation_above.png",
-         "The rock surface from outside, seen from above and the right, coloured by its deviation.", scene,
-         oblique(some_points(content, true), path.heading, aspect), above_height);
+         on_axis ? "The rock surface from outside, seen from above and the right, coloured by its deviation."
+                 : "The surface from outside.",
+         scene, oblique(some_points(content, true), path.heading, aspect), above_height);
     std::swap(views[views.size() - 2], views[views.size() - 1]);
   }
   return views;

@@ -46,7 +46,7 @@ std::string name_of(const Suspect& suspect, const PoseGraph& graph, const std::v
   return "target " + first.id + " of scan " + scan_of(first.node);
 }
 
-/// Simulated pairs stay within 0.01 per mille; real ones (a room, a corridor) come to 0.7 with sigmas of 0.1 to 0.3,
+/// Simulated pairs stay within 0.01 per mille; real ones (a room, a corridor) come to 2 with sigmas of 1 to 3,
 /// for what bends in a scan is no scale: it must be clear.
 bool is_other_scale(const PairResult& pair) {
   constexpr double least_off = 3e-4, clear_sigmas = 5.0;

@@ -127,11 +127,11 @@ void add_pairs(PageFlow& flow, const Results& results) {
                {"median mm", 13, true},
                {"rms mm", 11, true},
                {"within 6 mm", 14, true},
-               {"along, across, up", 27, true},
-               {"agreeing", 15, true},
-               {"seen through", 15, true},
-               {"scale \xE2\x80\xB0", 11, true},
-               {"iterations", 18, true},
+               {"along, across, up", 25, true},
+               {"agreeing", 14, true},
+               {"seen through", 13, true},
+               {"scale \xE2\x80\xB0", 19, true},
+               {"iterations", 15, true},
                {"used", 12, false}},
               {},
               2.2};
@@ -140,13 +140,14 @@ void add_pairs(PageFlow& flow, const Results& results) {
         {p.source, p.target, percent(p.overlap), fixed(1000.0 * p.median_m, 1), fixed(1000.0 * p.rms_m, 1),
          percent(p.within_6mm), percent(p.balance.x()) + "  " + percent(p.balance.y()) + "  " + percent(p.balance.z()),
          percent(p.agreeing), percent(p.seen_through, 1),
-         p.scale_sigma > 0.0 ? with_sign(1000.0 * (p.scale - 1.0), 2) : "", std::to_string(p.iterations),
-         p.used ? TableCell("yes") : TableCell("no", colours::red, true)});
+         p.scale_sigma > 0.0 ? with_sign(1000.0 * (p.scale - 1.0), 2) + " \xC2\xB1 " + fixed(1000.0 * p.scale_sigma, 2)
+                             : "",
+         std::to_string(p.iterations), p.used ? TableCell("yes") : TableCell("no", colours::red, true)});
   flow.table(table);
   flow.paragraph(
       "Residuals are distances to the surface that both scans make. Along, across, up: where the overlap faces. Agreeing: points that lie on the other scan's "
       "surface, of those where it shows one or its scanner saw through. Seen through: points where the other scanner "
-      "measured something behind; what stands there moved, or the pair is wrong. Scale: by how many thousandths the first scan would have to grow. Times: pair_timing_s in results.json.",
+      "measured something behind; what stands there moved, or the pair is wrong. Scale: by how many thousandths the first scan would have to grow, and one sigma of that. Times: pair_timing_s in results.json.",
       colours::grey, 2.3);
   for (const PairResult& p : pairs)
     if (!p.used)

@@ -6,8 +6,9 @@
 namespace adit::render {
 namespace {
 
-void add_names(PageFlow& flow, const Job& job, const std::string& date) {
-  flow.paragraph("Tunnel survey: overbreak, underbreak and volumes", colours::grey, 3.2);
+void add_names(PageFlow& flow, const Job& job, const std::string& date, bool compared) {
+  flow.paragraph(compared ? "Tunnel survey: overbreak, underbreak and volumes" : "Tunnel survey: scans in one frame",
+                 colours::grey, 3.2);
   flow.paragraph(job.name.empty() ? "(no name)" : job.name, colours::ink_blue, 6.4, true);
   std::string who;
   const auto add = [&](const char* label, const std::string& words) {
@@ -155,7 +156,7 @@ Table findings_table(const Findings& findings) {
 
 void add_title_page(PageFlow& flow, const ReportContent& content, const std::vector<ReportView>& views) {
   flow.start("");
-  add_names(flow, *content.job, content.date);
+  add_names(flow, *content.job, content.date, content.results->profile.has_value());
   add_status(flow, *content.results);
   add_volume_numbers(flow, *content.results);
   add_findings(flow, *content.results);
