@@ -31,6 +31,12 @@ json sigma_mdeg(const PoseSigma& sigma) {
           {"yaw", 1e3 * deg_from_rad(sigma.yaw_rad)}};
 }
 
+json stretches_json(const std::vector<Stretch>& stretches) {
+  json list = json::array();
+  for (const Stretch& stretch : stretches) list.push_back({stretch.from_m, stretch.to_m});
+  return list;
+}
+
 json findings_json(const Findings& findings) {
   json list = json::array();
   for (const Finding& f : findings) {
@@ -80,6 +86,8 @@ json registration_json(const Results& results) {
          {"sigma_mdeg", sigma_mdeg(pair.sigma)},
          {"undetermined", pair.undetermined},
          {"alike_m", pair.alike_m == 0.0 ? json(nullptr) : json(pair.alike_m)},
+         {"moved_mm", pair.moved.empty() ? json(nullptr) : json(1e3 * pair.moved_m)},
+         {"moved_stretches_m", stretches_json(pair.moved)},
          {"lone_witness_m",
           pair.lone_witness.is_empty() ? json(nullptr) : json({pair.lone_witness.from_m, pair.lone_witness.to_m})},
          {"used", pair.used},

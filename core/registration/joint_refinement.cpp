@@ -11,6 +11,7 @@ namespace {
 
 constexpr int most_turns = 3;
 constexpr double still_m = 1e-5;
+constexpr double farthest_m = 0.1;
 
 HeldDirections held_directions(const std::vector<std::string>& undetermined) {
   HeldDirections held{};
@@ -34,10 +35,12 @@ JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustm
   JointRefinement joint{used_part(graph, adjustment), adjustment.solved};
   std::vector<HeldDirections> held;
   std::vector<bool> alike;
+  std::vector<std::vector<Stretch>> apart;
   for (const PairResult& pair : pairs) {
     if (!pair.used) continue;
     held.push_back(held_directions(pair.undetermined));
     alike.push_back(pair.alike_m != 0.0);
+    apart.push_back(pair.moved);
   }
   for (int turn = 0; turn < most_turns; ++turn) {
     progress.step(static_cast<std::size_t>(turn), most_turns);
@@ -50,8 +53,10 @@ JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustm
           const Pose now =
               joint.solved.local_from_scan[pair.target].inverse() * joint.solved.local_from_scan[pair.source];
           const Eigen::Vector3d axis = target.start.linear().transpose() * axis_at(context, target, target.start);
-          if (const auto asked =
-                  one_step(*target.prepared, *nodes[pair.source].prepared, now, held[k], tunnel_axes(axis), progress))
+          const bool knows_all = held[k] == HeldDirections{};
+          if (knows_all && distance_between_m(now, pair.target_from_source) > farthest_m) return;  // it has slipped
+          if (const auto asked = one_step(*target.prepared, *nodes[pair.source].prepared, now, held[k],
+                                          tunnel_axes(axis), apart[k], progress))
             pair.target_from_source = *asked;
         },
         1);

@@ -29,8 +29,9 @@ std::size_t strongest(const SlopesAlong& slopes, std::size_t many) {
 
 }  // namespace
 
-Stretch lone_witness(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                     const Eigen::Vector3d& axis, double near_m, Progress& progress) {
+Witness strongest_witness(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                          const Eigen::Vector3d& axis, double near_m, std::span<const Stretch> apart,
+                          Progress& progress) {
   constexpr double longest_m = 4.0, beside_m = 0.35;
   const double size_m = piece_of(target, source);
   const SurfaceMap& of_target = target.surface(size_m);
@@ -38,7 +39,10 @@ Stretch lone_witness(const PreparedScan& target, const PreparedScan& source, con
   const auto slopes_at = [&](double shift_m) {
     progress.check();
     const Pose moved = Eigen::Translation3d(shift_m * axis) * target_from_source;
-    return slopes_along(of_target, of_source, moved, axis, near_m, enough_slopes);
+    SlopesAlong slopes = slopes_along(of_target, of_source, moved, axis, near_m, enough_slopes);
+    for (std::size_t i = 0; i < SlopesAlong::count; ++i)
+      if (is_in(SlopesAlong::begin_m(i) + 0.5 * SlopesAlong::length_m, apart)) slopes.stretches[i] = {};
+    return slopes;
   };
   const SlopesAlong here = slopes_at(0.0);
   const auto longest = static_cast<std::size_t>(longest_m / SlopesAlong::length_m);
@@ -50,8 +54,11 @@ Stretch lone_witness(const PreparedScan& target, const PreparedScan& source, con
     return rest.likeness();
   };
   const double beside = std::max(0.0, 0.5 * (of_rest(slopes_at(-beside_m)) + of_rest(slopes_at(beside_m))));
-  if (of_rest(here) - beside >= least_likeness) return {};
-  return {SlopesAlong::begin_m(first), SlopesAlong::begin_m(first + many)};
+  Witness witness;
+  witness.stretch = {SlopesAlong::begin_m(first), SlopesAlong::begin_m(first + many)};
+  witness.share = here.of(first, many).common / std::max(here.all().common, 1e-9);
+  witness.borne_out = of_rest(here) - beside >= least_likeness;
+  return witness;
 }
 
 }  // namespace adit

@@ -1,6 +1,8 @@
 #pragma once
-// Does more than one place of the overlap say where along the tunnel a scan stands? In a smooth tunnel a machine or the
-// face may be all there is; had it moved between two scans, so would the scan.
+// Does more than one place of the overlap say where along the tunnel a scan stands? A machine or the face may be what
+// tells most, or all there is in a smooth tunnel; had it moved between two scans, so would the scan.
+
+#include <span>
 
 #include "core/foundation/progress.h"
 #include "core/registration/prepared_scan.h"
@@ -8,10 +10,16 @@
 
 namespace adit {
 
-/// The stretch (4 m, or a third of a shorter overlap) that alone tells "along": the surfaces outside it slope together
-/// no more than they do 0.35 m farther along. Empty where others bear it out. near_m: surfaces farther apart do not
-/// meet. Axis: unit, target's frame; the stretch is measured along it from the target's origin.
-Stretch lone_witness(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                     const Eigen::Vector3d& axis, double near_m, Progress& progress);
+/// The stretch of the tunnel (4 m, or a third of a shorter overlap) that tells "along" most.
+struct Witness {
+  Stretch stretch;         ///< along the axis from the target's origin
+  double share = 0.0;      ///< of all that tells
+  bool borne_out = false;  ///< the surfaces outside it slope together more than they do 0.35 m farther along
+};
+
+/// near_m: surfaces farther apart do not meet. Axis: unit, target's frame. apart: stretches that are not asked.
+Witness strongest_witness(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                          const Eigen::Vector3d& axis, double near_m, std::span<const Stretch> apart,
+                          Progress& progress);
 
 }  // namespace adit

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/foundation/progress.h"
 #include "core/registration/observability.h"
@@ -22,9 +23,10 @@ double tukey_reach_m(std::span<const SurfaceMatch> matches, double cell_m);
 /// By surfaces: Gauss-Newton steps on those of both scans, first on pieces twice as large, until they are too small to
 /// matter; Tukey's weights of a reach that fits the noise found. By points: iterative closest point on the middles of
 /// the same pieces. Held directions (axes: tunnel_axes in the target's frame) are left alone.
+/// By surfaces, what stands in the stretches that are set apart (from the target's origin along the axis) is not asked.
 Pose refined(const PreparedScan& target, const PreparedScan& source, Pose target_from_source,
              const HeldDirections& held, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
-             Progress& progress);
+             Progress& progress, std::span<const Stretch> apart = {});
 
 /// The same, begun on pieces four times as large.
 Pose refined_from_large(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
@@ -33,6 +35,11 @@ Pose refined_from_large(const PreparedScan& target, const PreparedScan& source, 
 
 /// One step by surfaces, on the smaller pieces; nothing where too few of them meet.
 std::optional<Pose> one_step(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                             const HeldDirections& held, const Eigen::Matrix3d& axes, Progress& progress);
+                             const HeldDirections& held, const Eigen::Matrix3d& axes, std::span<const Stretch> apart,
+                             Progress& progress);
+
+/// Matches at a pose but those that stand in a stretch. Axes: tunnel_axes in the target's frame.
+std::vector<SurfaceMatch> outside(std::span<const Stretch> apart, std::vector<SurfaceMatch> matches,
+                                  const Pose& target_from_source, const Eigen::Matrix3d& axes);
 
 }  // namespace adit

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/foundation/error.h"
+#include "core/geometry/pose_step.h"
 #include "core/registration/pose_graph.h"
 
 namespace adit {
@@ -129,6 +130,15 @@ void build(Problem& problem, const PoseGraph& graph) {
   if (graph.datum) problem.ceres.SetParameterBlockConstant(problem.blocks[*graph.datum].data());
 }
 
+/// What a change of a rotation vector turns (the left Jacobian of the exponential).
+Eigen::Matrix3d turn_of_change(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  if (angle < 1e-6) return Eigen::Matrix3d::Identity() + 0.5 * cross_matrix(vector);
+  const Eigen::Matrix3d cross = cross_matrix(vector);
+  return Eigen::Matrix3d::Identity() + (1.0 - std::cos(angle)) / (angle * angle) * cross +
+         (angle - std::sin(angle)) / (angle * angle * angle) * cross * cross;
+}
+
 std::vector<Matrix6d> covariances(Problem& problem, const PoseGraph& graph) {
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
@@ -145,7 +155,9 @@ std::vector<Matrix6d> covariances(Problem& problem, const PoseGraph& graph) {
     if (graph.datum == i) continue;
     Eigen::Matrix<double, 6, 6, Eigen::RowMajor> block;
     covariance.GetCovarianceBlock(problem.blocks[i].data(), problem.blocks[i].data(), block.data());
-    result[i] = block;
+    Matrix6d turns = Matrix6d::Identity();
+    turns.topLeftCorner<3, 3>() = turn_of_change(Eigen::Vector3d(problem.blocks[i].data()));
+    result[i] = turns * block * turns.transpose();
   }
   return result;
 }

@@ -61,15 +61,26 @@ LikestPlace likest_near(const PreparedScan& target, const PreparedScan& source, 
 /// twice more. Simulated rock has 0.75 to 0.95.
 constexpr double well_agreeing = 0.7;
 
-/// Where such a pair ends otherwise: begun on large pieces; with target and source exchanged.
+/// Where such a pair ends otherwise: begun on large pieces; with target and source exchanged, from the guess where
+/// there is one. And where points refined it, what surfaces say.
 std::vector<Pose> other_answers(const PreparedScan& target, const PreparedScan& source, const Pose& pose,
-                                const Pose& guess, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
-                                Progress& progress) {
-  if (check_fit(target, source, pose).agreeing >= well_agreeing) return {};
-  const Eigen::Matrix3d axes_in_source = axes * guess.linear();
-  const NdtAlignment exchanged = aligned_at(source, target, guess.inverse(), axes_in_source, options, progress);
-  return {refined_from_large(target, source, pose, {}, axes, options, progress),
-          exchanged.target_from_source.inverse()};
+                                const std::optional<Pose>& guess, const Eigen::Matrix3d& axes,
+                                const RegistrationOptions& options, Progress& progress) {
+  std::vector<Pose> answers;
+  if (options.refinement == Refinement::points) {  // closest points weigh surfaces that do not meet as those that do
+    RegistrationOptions by_surfaces = options;
+    by_surfaces.refinement = Refinement::surfaces;
+    answers.push_back(refined(target, source, pose, {}, axes, by_surfaces, progress));
+  }
+  if (check_fit(target, source, pose).agreeing >= well_agreeing) return answers;
+  answers.push_back(refined_from_large(target, source, pose, {}, axes, options, progress));
+  const Pose& begun = guess ? *guess : pose;
+  const Eigen::Matrix3d axes_in_source = axes * begun.linear();
+  const Pose exchanged =
+      guess ? aligned_at(source, target, begun.inverse(), axes_in_source, options, progress).target_from_source
+            : refined(source, target, begun.inverse(), {}, axes_in_source, options, progress);
+  answers.push_back(exchanged.inverse());
+  return answers;
 }
 
 /// What is known of a pair beside its surfaces.
@@ -77,7 +88,7 @@ struct Known {
   HeldDirections held{};
   std::optional<Slide> slide;
   std::vector<Vector6d> other_answers;  ///< as errors
-  Stretch apart;                        ///< what stands there is no witness
+  std::vector<Stretch> apart;           ///< what stands there is no witness
 };
 
 /// A pose, judged by the surfaces that meet there.
@@ -90,11 +101,7 @@ Judged judge(const PreparedScan& target, const PreparedScan& source, const Pose&
   const SurfaceMap& surface = target.surface(piece_of(target, source));
   Judged judged;
   judged.matches = surface_matches(surface, source.surface(surface.cell_m()), pose, progress);
-  std::vector<SurfaceMatch> witnesses = judged.matches;
-  std::erase_if(witnesses, [&](const SurfaceMatch& match) {
-    const double along_m = axes.row(along).dot(pose.translation() + match.arm);
-    return along_m >= beside.apart.from_m && along_m < beside.apart.to_m;
-  });
+  const std::vector<SurfaceMatch> witnesses = outside(beside.apart, judged.matches, pose, axes);
   judged.known = judge_observability(
       witnesses, tukey_reach_m(judged.matches, surface.cell_m()), axes,
       {options.undetermined_sigma_m, options.pair_sigma_m, options.guess_sigma_m, beside.other_answers}, beside.held,
@@ -134,6 +141,56 @@ PoseSigma as_guessed_where_held(const PairInformation& known, const Registration
   return sigma;
 }
 
+/// The first thing that tells "along" may have moved, or the first two: whether what stands elsewhere tells the same.
+/// Where nothing else tells, the first is a lone witness. Where the rest puts the scan elsewhere, it is believed, and
+/// what has moved is left out; where it nearly does, that is an error.
+void hear_witnesses(PairResult& pair, const PreparedScan& target, const PreparedScan& source, Pose& pose,
+                    Judged& judged, Known& beside, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
+                    Progress& progress) {
+  constexpr double contradicts_sigmas = 4.0;
+  constexpr double least_m = 3e-4;  // of a step: less does not matter
+  RegistrationOptions by_surfaces = options;
+  by_surfaces.refinement = Refinement::surfaces;
+  const double size_m = piece_of(target, source);
+  const double reach_m = tukey_reach_m(judged.matches, size_m);
+  Known rest = beside;
+  double share = 1.0;
+  for (int heard = 0; heard < 2; ++heard) {
+    const Witness witness =
+        strongest_witness(target, source, pose, axes.row(along).transpose(), 2.0 * reach_m, rest.apart, progress);
+    if (!witness.borne_out) {
+      if (heard == 0) beside.apart = {pair.lone_witness = witness.stretch};
+      return;  // two that tell the same bear each other out
+    }
+    rest.apart.push_back(witness.stretch);
+    share *= 1.0 - witness.share;
+    const NormalEquations equations = normal_equations(outside(rest.apart, judged.matches, pose, axes), reach_m);
+    const double bend = std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.4, 1.0);
+    const double asked_m = axes.row(along).dot(step_without(equations, {}, axes).tail<3>()) / bend;
+    const double loose_m = judged.known.sigma.along_m / std::sqrt(std::max(share, 1e-3));
+    if (std::abs(asked_m) < std::max(least_m, loose_m)) continue;
+    const Pose there = refined(target, source, pose, {}, axes, by_surfaces, progress, rest.apart);
+    const Judged judged_there = judge(target, source, there, axes, rest, options, progress);
+    if (judged_there.known.undetermined[along]) {  // it does not bear the witness out, and knows no better
+      pair.lone_witness = witness.stretch;
+      beside.apart = rest.apart;
+      return;
+    }
+    const double moved_m = shift_along_m(there, pose, axes.row(along).transpose());
+    if (std::abs(moved_m) < contradicts_sigmas * judged_there.known.sigma.along_m) {
+      beside.other_answers.push_back(difference(pose, there));
+      judged = judge(target, source, pose, axes, beside, options, progress);
+      continue;
+    }
+    pair.moved = rest.apart;
+    pair.moved_m = moved_m;
+    beside.apart = rest.apart;
+    pose = there;
+    judged = judged_there;
+    return;
+  }
+}
+
 /// Where the transform and the surfaces put it.
 Pose placed(PairResult& pair, const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
             const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress) {
@@ -169,23 +226,25 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
     pair.alike_m = likest.alike_m;
     beside.slide = likest.slide;
   }
-  const std::vector<Pose> others =
-      other_answers(target, source, pose, start == Start::guess ? guess : pose, axes, options, last);
-  for (const Pose& other : others) beside.other_answers.push_back(difference(pose, other));
   Judged judged = judge(target, source, pose, axes, beside, options, last);
   const HeldDirections at_guess = judged.known.undetermined;
   if (at_guess[along]) {
     pair.alike_m = 0.0;  // smooth walls: what is alike there is noise
   } else if (pair.alike_m == 0.0) {
-    const double near_m = 2.0 * tukey_reach_m(judged.matches, piece_of(target, source));
-    beside.apart = pair.lone_witness = lone_witness(target, source, pose, axis_in_target, near_m, last);
+    hear_witnesses(pair, target, source, pose, judged, beside, axes, options, last);
   }
+  std::vector<Pose> others;
+  if (pair.moved.empty())
+    others = other_answers(target, source, pose, start == Start::guess ? std::optional<Pose>(guess) : std::nullopt,
+                           axes, options, last);
+  for (const Pose& other : others) beside.other_answers.push_back(difference(pose, other));
+  if (!others.empty()) judged = judge(target, source, pose, axes, beside, options, last);
   // Where it fits elsewhere as well, or one thing tells, it stays where surfaces meet: the adjustment holds it.
   beside.held = at_guess;
   beside.held[along] = at_guess[along] || pair.alike_m != 0.0 || !pair.lone_witness.is_empty();
   if (beside.held != HeldDirections{}) {
     pose = put_back(guess, pose, at_guess, judged.known.ways, axes);
-    pose = refined(target, source, pose, beside.held, axes, options, last);
+    pose = refined(target, source, pose, beside.held, axes, options, last, pair.moved);
     judged = judge(target, source, pose, axes, beside, options, last);
     if (beside.held[along] && pair.alike_m == 0.0) {
       beside.slide = slide_of(target, source, pose, beside.held, judged.known.ways[along], axes, options, last);

@@ -98,12 +98,13 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
     scan.placed_by = how_placed(nodes[i], has_pairs, graph.datum == i);
     if (!tied[i]) {
       result.findings.push_back({Severity::decision, "scan " + scan.name,
-                                 "no pair and no control ties it to the other scans; it stands at its guess",
+                                 std::string("no pair and no control ties it to the other scans") +
+                                     (nodes[i].by == Node::By::guess ? "; it stands at its guess" : ""),
                                  "check its guess and registration.pair_distance_m and least_overlap, or survey three "
                                  "targets"});
     }
-    const bool held = nodes[i].by == Node::By::guess && !(has_pairs && knows_all);
-    name_undetermined(scan, held, options, result.findings);
+    const bool guessed = nodes[i].by == Node::By::guess && !(has_pairs && knows_all);
+    name_undetermined(scan, guessed, options, result.findings);
     compare_with_guess(scan, nodes[i], options, result.findings);
   }
 }
@@ -180,6 +181,26 @@ bool stand_in_site(std::vector<Node>& nodes) {
   return site_from_group.has_value();
 }
 
+/// Matches all pairs, and those of scans whose guesses turn out wrong once more from where they stand.
+MatchedPairs matched_pairs(std::vector<Node>& nodes, const RegistrationContext& context,
+                           const RegistrationOptions& options, Findings& findings, Progress& progress) {
+  constexpr int most_rounds = 3;  // a pair that was no candidate before may contradict the next guess
+  const std::vector<Node> guessed = nodes;
+  Progress matching = progress.part(0.25, "matching scans");
+  MatchedPairs pairs = register_pairs(nodes, candidate_pairs(nodes, options), context, options, matching);
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<bool> moved = set_aside_wrong_guesses(nodes, pairs, options);
+    if (std::find(moved.begin(), moved.end(), true) == moved.end()) break;
+    std::vector<bool> searched;
+    for (const Node& node : nodes) searched.push_back(node.by == Node::By::search);
+    Progress again = progress.part(0.05 / most_rounds, "matching scans again");
+    pairs = register_moved(nodes, searched, std::move(pairs), context, options, again);
+  }
+  take_back_right_guesses(guessed, nodes, options);
+  report_wrong_guesses(guessed, nodes, findings);
+  return pairs;
+}
+
 }  // namespace
 
 RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const RegistrationContext& known,
@@ -198,14 +219,9 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   result.in_site = stand_in_site(nodes);
   RegistrationContext context = known;
   if (!result.in_site) context.axis_direction = nullptr;  // the design's axis lies in the site
-  Progress matching = progress.part(0.25, "matching scans");
-  MatchedPairs pairs = register_pairs(nodes, candidate_pairs(nodes, options), context, options, matching);
-  Progress again = progress.part(0.05, "matching scans again");
-  const std::vector<bool> moved = set_aside_wrong_guesses(nodes, pairs, options, result.findings);
-  if (std::find(moved.begin(), moved.end(), true) != moved.end())
-    pairs = register_moved(nodes, moved, std::move(pairs), context, options, again);
+  const MatchedPairs pairs = matched_pairs(nodes, context, options, result.findings, progress);
   const std::vector<Candidate>& candidates = pairs.candidates;
-  result.pairs = std::move(pairs.results);
+  result.pairs = pairs.results;
   report_pairs(result, options);
   Progress adjusting = progress.part(0.1, "adjusting all scans");
   const PoseGraph graph = graph_of(nodes, candidates, result.pairs, options);

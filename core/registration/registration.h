@@ -1,9 +1,11 @@
 #pragma once
 // Scans in, poses out: pairs, their quality, one adjustment. The engine behind it may change; this interface stays.
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -83,6 +85,12 @@ struct Stretch {
   bool is_empty() const { return to_m <= from_m; }
 };
 
+/// Whether a place stands in one of them.
+inline bool is_in(double along_m, std::span<const Stretch> stretches) {
+  return std::any_of(stretches.begin(), stretches.end(),
+                     [&](const Stretch& s) { return along_m >= s.from_m && along_m < s.to_m; });
+}
+
 /// How two scans fit. Transform and sigma are those of the pair alone, before the adjustment.
 struct PairResult {
   std::string source;
@@ -106,6 +114,10 @@ struct PairResult {
   /// How far along the tunnel from here it fits as well (ribs and rings repeat), so that "along" is undetermined; 0:
   /// nowhere near.
   double alike_m = 0.0;
+  /// Where something has moved along the tunnel between the scans, from the target: it was left out. By how far, as the
+  /// source saw it.
+  std::vector<Stretch> moved;
+  double moved_m = 0.0;
   /// Where the only place stands that tells "along", from the target along the tunnel: nothing bears it out, so that
   /// "along" is undetermined. Empty where more than one does.
   Stretch lone_witness;

@@ -19,7 +19,8 @@ void report_contradictions(RegistrationResult& result, const Adjustment& adjustm
 void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved,
                     const PoseGraph& graph, const std::vector<Node>& nodes, const RegistrationOptions& options);
 
-/// Directions of a scan whose sigma is too great to be called known. held: at its guess, by pairs that do not tell.
+/// Directions of a scan whose sigma is too great to be called known. guessed: "held" is said of what is
+/// no better known than a guess.
 void name_undetermined(PlacedScan& scan, bool held, const RegistrationOptions& options, Findings& findings);
 
 /// A scan that ended far from its guess: the guess was wrong, or the match is.

@@ -15,14 +15,15 @@ namespace {
 constexpr std::size_t most_pairs_a_scan = 4;
 
 std::string why_not(const PairResult& pair, const RegistrationOptions& options) {
-  char words[120];
+  char words[160];
   if (pair.overlap < options.least_overlap) {
     std::snprintf(words, sizeof words, "overlaps by only %.0f %%", 100.0 * pair.overlap);
     return words;
   }
-  if (pair.agreeing >= least_agreeing) return {};
-  std::snprintf(words, sizeof words, "lies on the same surfaces with only %.0f %% of what both show",
-                100.0 * pair.agreeing);
+  if (lies_well(pair)) return {};
+  std::snprintf(words, sizeof words,
+                "lies on the same surfaces with only %.0f %% of what both show, %.1f %% seen through",
+                100.0 * pair.agreeing, 100.0 * pair.seen_through);
   return words;
 }
 
@@ -32,35 +33,64 @@ Start start_of(const Node& target, const Node& source) {
   return both(Node::By::control) ? Start::surveyed : Start::guess;
 }
 
+/// The nearest few, the nearest first.
+std::vector<std::size_t> near_nodes(const std::vector<Node>& nodes, std::size_t node, double most_m) {
+  std::vector<std::pair<double, std::size_t>> near;
+  for (std::size_t j = 0; j < nodes.size(); ++j) {
+    const double distance = distance_between_m(nodes[node].start, nodes[j].start);
+    if (node != j && distance <= most_m) near.emplace_back(distance, j);
+  }
+  std::sort(near.begin(), near.end());
+  if (near.size() > most_pairs_a_scan) near.resize(most_pairs_a_scan);
+  std::vector<std::size_t> indices;
+  for (const auto& [distance, j] : near) indices.push_back(j);
+  return indices;
+}
+
+bool overlap_at_start(const Node& target, const Node& source, const RegistrationOptions& options) {
+  const Pose guess = target.start.inverse() * source.start;
+  const double loose_m = 1.0 + options.guess_sigma_m;
+  const double overlap = overlap_at(*target.prepared, *source.prepared, guess, loose_m);
+  const double reverse = overlap_at(*source.prepared, *target.prepared, guess.inverse(), loose_m);
+  return std::max(overlap, reverse) >= options.least_overlap;
+}
+
 }  // namespace
 
 std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const RegistrationOptions& options) {
   std::set<std::pair<std::size_t, std::size_t>> chosen;
+  std::vector<std::size_t> nearest(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    std::vector<std::pair<double, std::size_t>> near;
-    for (std::size_t j = 0; j < nodes.size(); ++j) {
-      const double distance = distance_between_m(nodes[i].start, nodes[j].start);
-      if (i != j && distance <= options.pair_distance_m) near.emplace_back(distance, j);
-    }
-    std::sort(near.begin(), near.end());
-    if (near.size() > most_pairs_a_scan) near.resize(most_pairs_a_scan);
-    for (const auto& [distance, j] : near) chosen.insert(std::minmax(i, j));
+    const std::vector<std::size_t> near = near_nodes(nodes, i, options.pair_distance_m);
+    nearest[i] = near.empty() ? i : near.front();
+    for (const std::size_t j : near) chosen.insert(std::minmax(i, j));
   }
   std::vector<Candidate> pairs;
+  std::vector<bool> paired(nodes.size(), false);
   for (const auto& [i, j] : chosen) {
-    const Pose guess = nodes[i].start.inverse() * nodes[j].start;
-    const double loose_m = 1.0 + options.guess_sigma_m;
-    const double overlap = overlap_at(*nodes[i].prepared, *nodes[j].prepared, guess, loose_m);
-    const double reverse = overlap_at(*nodes[j].prepared, *nodes[i].prepared, guess.inverse(), loose_m);
-    if (std::max(overlap, reverse) >= options.least_overlap) pairs.push_back({i, j});
+    if (!overlap_at_start(nodes[i], nodes[j], options)) continue;
+    pairs.push_back({i, j});
+    paired[i] = paired[j] = true;
+  }
+  // A scan that overlaps none where its guess puts it is asked with its nearest: the guess may be turned about.
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto [target, source] = std::minmax(i, nearest[i]);
+    const Candidate lonely{target, source};
+    if (paired[i] || nearest[i] == i || std::find(pairs.begin(), pairs.end(), lonely) != pairs.end()) continue;
+    pairs.push_back(lonely);
   }
   return pairs;
+}
+
+bool lies_well(const PairResult& pair) {
+  constexpr double least = 0.45, weight_of_seen_through = 3.0;  // as FitCheck::worth
+  return pair.agreeing - weight_of_seen_through * pair.seen_through >= least;
 }
 
 PairResult matched_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
                         const Eigen::Vector3d& axis_in_target, const RegistrationOptions& options, Progress& progress) {
   PairResult pair = register_pair(target, source, guess, start, axis_in_target, options, progress);
-  if (start == Start::found || pair.agreeing >= least_agreeing) return pair;
+  if (start == Start::found || lies_well(pair)) return pair;
   const PairFound other = found_place(target, source, options, progress);
   if (other.outcome != SearchOutcome::placed) return pair;
   return register_pair(target, source, other.target_from_source, Start::found, axis_in_target, options, progress);

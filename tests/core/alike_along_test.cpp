@@ -151,11 +151,14 @@ TEST(LoneWitnessSlow, RoughWallsBearTheFaceOutOrContradictIt) {
   EXPECT_TRUE(same.pair.lone_witness.is_empty());
   EXPECT_TRUE(same.pair.undetermined.empty());
   EXPECT_LT(same.error_m.norm(), 0.001);
-  const Matched moved = matched(scans_before_a_face(0.03, 0.3), 0.1);
-  if (moved.pair.undetermined.empty()) {
-    EXPECT_LT(std::abs(moved.error_m.x()), 4.0 * moved.pair.sigma.along_m);
+  for (const double went_on_m : {-0.05, -0.01, 0.15}) {
+    const Matched moved = matched(scans_before_a_face(0.03, went_on_m), 0.1);
+    EXPECT_TRUE(moved.pair.undetermined.empty());
+    EXPECT_FALSE(moved.pair.moved.empty()) << went_on_m;
+    EXPECT_NEAR(moved.pair.moved_m, -went_on_m, 0.003);
+    EXPECT_LT(std::abs(moved.error_m.x()), 4.0 * moved.pair.sigma.along_m) << went_on_m;
+    EXPECT_LT(moved.error_m.norm(), 0.003);
   }
-  EXPECT_LT(moved.error_m.tail<2>().norm(), 0.004);
 }
 
 }  // namespace

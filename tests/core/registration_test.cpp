@@ -316,6 +316,22 @@ TEST(PoseGraph, ClosesALoopAndIgnoresAPlantedWrongPair) {
   EXPECT_GT(planted.pair_misfit.back(), 1000.0);
 }
 
+TEST(PoseGraph, CovarianceDoesNotDependOnTheStart) {
+  const Pose truth = make_pose({10, 20, 3}, {1.0, 0.01, 0.02});
+  const auto covariance = [&](double yaw_deg) {
+    PoseGraph graph;
+    graph.local_from_scan = {off(truth, {0.3, 0.2, 0.1}, yaw_deg)};
+    graph.guess_sigma_rad = 10.0;
+    for (const Eigen::Vector3d& p : {Eigen::Vector3d(5, 0, 0), Eigen::Vector3d(0, 3, 1), Eigen::Vector3d(-2, 0, 2)})
+      graph.control.push_back({0, "T", p, truth * p});
+    Progress progress;
+    return Matrix6d(solve_pose_graph(graph, progress).covariance[0]);
+  };
+  const Matrix6d right = covariance(0.0);
+  for (const double yaw_deg : {40.0, 120.0, 170.0})
+    EXPECT_LT((covariance(yaw_deg) - right).norm(), 1e-3 * right.norm()) << yaw_deg;
+}
+
 TEST(PoseGraph, ControlGivesDatumAndCovariance) {
   const Pose truth = make_pose({10, 20, 3}, {1.0, 0.01, 0.02});
   PoseGraph graph;
