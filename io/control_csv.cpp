@@ -16,7 +16,7 @@ std::vector<ControlPoint> read_control_csv(const std::filesystem::path& file) {
   while (rows.next()) {
     if (points.empty()) rows.expect_header({"inp#", "ex", "ny", "ezhl"}, form);
     rows.expect_fields(4, 4, form);
-    ControlPoint point{rows.text(0), {rows.number(1), rows.number(2), rows.number(3)}};
+    ControlPoint point{rows.text(0), {rows.coordinate(1), rows.coordinate(2), rows.coordinate(3)}};
     if (point.id.empty()) rows.lines().fail(rows.fields()[0], "the point has no id", "give every point an id");
     const auto [before, is_new] = line_of_id.emplace(point.id, rows.lines().line_number());
     if (!is_new) {

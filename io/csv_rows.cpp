@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "core/foundation/error.h"
 
@@ -62,6 +63,14 @@ bool CsvRows::next() {
   if (!next_line()) return false;
   split();
   return true;
+}
+
+double CsvRows::coordinate(std::size_t i) const {
+  constexpr double beyond_any_site_m = 1e8;  // as for poses in job.json
+  const double value = number(i);
+  if (std::abs(value) > beyond_any_site_m)
+    lines_.fail(fields_.at(i), "a coordinate beyond 100,000 km", "metres are needed");
+  return value;
 }
 
 void CsvRows::expect_fields(std::size_t least, std::size_t most, const std::string& form) const {

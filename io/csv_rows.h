@@ -25,6 +25,8 @@ class CsvRows {
   const std::vector<std::string>& header() const { return header_; }
   const LineReader& lines() const { return lines_; }
   double number(std::size_t i) const { return lines_.number(fields_.at(i)); }
+  /// A number of metres no farther than any site. Throws Error with the place otherwise.
+  double coordinate(std::size_t i) const;
   std::string text(std::size_t i) const { return std::string(fields_.at(i).text); }
 
   /// Throws Error with the place unless the row has `least` to `most` fields; `form` is the row as it should be.

@@ -17,7 +17,7 @@ std::vector<TargetObservation> read_targets_csv(const std::filesystem::path& fil
   while (rows.next()) {
     if (targets.empty()) rows.expect_header({"s", "itnp#", "x", "y", "z"}, form);
     rows.expect_fields(5, 5, form);
-    TargetObservation target{rows.text(0), rows.text(1), {rows.number(2), rows.number(3), rows.number(4)}};
+    TargetObservation target{rows.text(0), rows.text(1), {rows.coordinate(2), rows.coordinate(3), rows.coordinate(4)}};
     if (target.scan.empty()) rows.lines().fail(rows.fields()[0], "the target has no scan", "name the scan");
     if (target.id.empty()) rows.lines().fail(rows.fields()[1], "the target has no id", "give every target an id");
     const auto [before, is_new] = line_of_target.emplace(std::pair(target.scan, target.id), rows.lines().line_number());

@@ -41,6 +41,7 @@ JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustm
     held.push_back(held_directions(pair.undetermined));
     alike.push_back(pair.alike_m != 0.0);
     apart.push_back(pair.moved);
+    if (!pair.lone_witness.is_empty()) apart.back().push_back(pair.lone_witness);
   }
   for (int turn = 0; turn < most_turns; ++turn) {
     progress.step(static_cast<std::size_t>(turn), most_turns);

@@ -266,9 +266,9 @@ PairInformation judge_observability(std::span<const SurfaceMatch> matches, doubl
   Matrix6d covariance = Matrix6d::Zero();
   while (!free.empty()) {
     Eigen::MatrixXd of_free = covariance_of(known, free);
-    of_free.diagonal().array() += std::max(1e-14, limits.least_sigma_m * limits.least_sigma_m);
     const Weakness weakest = weakest_of(known, free, of_free, limits.undetermined_sigma_m);
     if (weakest.ratio <= 1.0) {
+      of_free.diagonal().array() += std::max(1e-14, limits.least_sigma_m * limits.least_sigma_m);
       covariance(free, free) = of_free;
       break;
     }

@@ -6,10 +6,10 @@
 #include "core/foundation/angle.h"
 #include "core/registration/alike_along.h"
 #include "core/registration/fit_check.h"
-#include "core/registration/lone_witness.h"
 #include "core/registration/ndt.h"
 #include "core/registration/pair_refinement.h"
 #include "core/registration/pair_sheet.h"
+#include "core/registration/witness.h"
 
 namespace adit {
 namespace {

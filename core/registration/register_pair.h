@@ -17,7 +17,7 @@ PairInformation pair_information(const PreparedScan& target, const PreparedScan&
 /// axis_in_target: unit direction of the tunnel in the target's frame. Directions that the clouds do not determine are
 /// put back to the guess and named. "Along" is so, too, where the pair fits as well elsewhere near (alike_along.h:
 /// within three sigmas of a guess, ten metres of a place that was found) and where one thing alone tells it
-/// (lone_witness.h). Pairs that do not agree well are asked twice more; what differs is an error of theirs.
+/// (witness.h). Pairs that do not agree well are asked twice more; what differs is an error of theirs.
 enum class Start {
   guess,    ///< as good as the options say
   found,    ///< by a search, centimetres off: is refined only

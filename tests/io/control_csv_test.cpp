@@ -63,6 +63,7 @@ TEST_F(SurveyTables, ControlRefusals) {
   expect_words(control_refusal("id,north,east,elevation\nP1,1,2,3\n"),
                {"control.csv:1", "\"north\"", "id,east,north,elevation"});
   expect_words(control_refusal(",1,2,3\n"), {"no id"});
+  expect_words(control_refusal("P1,1,1e160,3\n"), {"control.csv:1:6", "beyond 100,000 km"});
   expect_words(control_refusal("# nothing\n"), {"no control points"});
   expect_words(error_of([&] { read_control_csv(folder_ / "absent.csv"); }), {"absent.csv"});
 }

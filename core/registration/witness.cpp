@@ -1,4 +1,4 @@
-#include "core/registration/lone_witness.h"
+#include "core/registration/witness.h"
 
 #include <algorithm>
 
