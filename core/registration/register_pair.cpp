@@ -177,7 +177,8 @@ void hear_witnesses(PairResult& pair, const PreparedScan& target, const Prepared
       return;
     }
     const double moved_m = shift_along_m(there, pose, axes.row(along).transpose());
-    if (std::abs(moved_m) < contradicts_sigmas * judged_there.known.sigma.along_m) {
+    const bool clear = std::abs(moved_m) >= contradicts_sigmas * judged_there.known.sigma.along_m;
+    if (!clear || check_fit(target, source, there).agreeing < well_agreeing) {  // bent scans differ from place to place
       beside.other_answers.push_back(difference(pose, there));
       judged = judge(target, source, pose, axes, beside, options, progress);
       continue;
