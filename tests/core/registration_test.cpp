@@ -2,7 +2,9 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 #include "core/foundation/error.h"
 #include "core/registration/observability.h"
@@ -188,6 +190,27 @@ TEST(RegistrationSlow, AWrongGuessIsSetAsideNotItsPairs) {
                                      f.words.find("set aside") != std::string::npos;
                             }),
               1);
+  }
+}
+
+TEST(RegistrationSlow, TwoExchangedGuessesAreNamedInAnyOrder) {
+  const RockTunnel rock = sample_rock();
+  std::vector<Pose> truth;
+  for (int i = 0; i < 4; ++i) truth.push_back(station(rock.design(), 26.0 + 11.0 * i, 10.0 + 50.0 * i));
+  for (const std::array<std::size_t, 4>& order : {std::array<std::size_t, 4>{0, 1, 2, 3}, {0, 2, 1, 3}}) {
+    std::vector<ScanToPlace> scans;
+    for (const std::size_t i : order) {
+      const std::size_t guessed = i == 1 ? 2 : i == 2 ? 1 : i;
+      scans.push_back(scan_to_place(std::string(1, "ABCD"[i]), scan_at(rock, truth[i], i + 1, 100000), truth[guessed]));
+    }
+    Progress progress;
+    const RegistrationResult result = register_scans(scans, context_along(rock.design().alignment()), {}, progress);
+    std::set<std::string> aside;
+    for (const Finding& f : result.findings)
+      if (f.words.find("set aside") != std::string::npos) aside.insert(f.subject);
+    EXPECT_EQ(aside, (std::set<std::string>{"scan B", "scan C"}));
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_LT(distance_between_m(result.scans[k].local_from_scan, truth[order[k]]), 0.005);
   }
 }
 
