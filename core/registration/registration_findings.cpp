@@ -201,6 +201,15 @@ void report_control(RegistrationResult& result, const Adjustment& adjustment, co
     result.findings.push_back({Severity::decision, "scan " + name, words, "check this target and its control point"});
   }
   result.control_rms_m = components.empty() ? 0.0 : root_mean_square(components);
+  // The test of the whole (Baarda 1968): what is wrong a little everywhere fails no test of one target.
+  constexpr double most_factor = 1.5;
+  if (components.empty() || result.sigma_factor <= most_factor) return;
+  char words[160];
+  std::snprintf(words, sizeof words, "control and scans contradict one another %.1f times beyond their sigmas",
+                result.sigma_factor);
+  result.findings.push_back({Severity::decision, "adjustment", words,
+                             "check the scale of the control (grid or ground distances), its points and "
+                             "registration.control_sigma_m"});
 }
 
 void name_undetermined(PlacedScan& scan, bool guessed, const RegistrationOptions& options, Findings& findings) {

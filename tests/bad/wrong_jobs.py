@@ -94,6 +94,14 @@ def all_control_a_hundred_metres_north(job):
     changed_rows(job / "control.csv", lambda row: moved(row, "north", 100.0))
 
 
+def control_one_per_mille_too_long(job):
+    """Grid instead of ground distances, or the other way round."""
+    first = rows_of(job / "control.csv")[0]
+    for key in ("east", "north"):
+        changed_rows(job / "control.csv",
+                     lambda row: moved(row, key, 0.001 * (float(row[key]) - float(first[key]))))
+
+
 def poses_east_and_north_exchanged(job):
     def change(plan):
         without_control(plan)
@@ -179,6 +187,7 @@ CASES = [
     (three_control_points_and_one_is_wrong, "register", 1, r"control point T105 contradicts .* too little control", r"pair .*left out", False),
     (control_east_and_north_exchanged, "register", 2, r"control\.csv: .* km from the axis; .*swapped", None, False),
     (all_control_a_hundred_metres_north, "register", 1, r"control: all 3 scans with a guess stand (99|100)\.\d m from it, one way", None, False),
+    (control_one_per_mille_too_long, "register", 1, r"control and scans contradict one another|contradicts|times what its sigma", None, False),
     (poses_east_and_north_exchanged, "register", 2, r"job\.json: scans.* swapped", None, False),
     (all_ten_kilometres_east, "register", 1, r"scan S1: stands \d+ m from the axis, far from the tunnel", None, False),
     (all_ten_kilometres_east, "surface", 2, r"no point of the scans lies near .*: scan S1 stands \d+ m from the axis", None, False),
