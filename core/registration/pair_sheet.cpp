@@ -1,5 +1,6 @@
 #include "core/registration/pair_sheet.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -59,6 +60,7 @@ void measure_scale(PairResult& pair, const PreparedScan& target, const PreparedS
 void measure_fit(PairResult& pair, const PreparedScan& target, const PreparedScan& source) {
   const FitCheck check = check_fit(target, source, pair.target_from_source);
   pair.agreeing = check.agreeing;
+  if (target.noise_m > 0.0 && source.noise_m > 0.0) pair.noise_m = std::max(target.noise_m, source.noise_m);
   pair.seen_through = check.seen_through;
   pair.overlap = overlap_at(target, source, pair.target_from_source, 0.4);
 }

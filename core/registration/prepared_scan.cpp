@@ -9,6 +9,7 @@
 
 #include "core/foundation/error.h"
 #include "core/geometry/cell_sums.h"
+#include "core/geometry/statistics.h"
 
 namespace adit {
 namespace {
@@ -24,6 +25,14 @@ Eigen::Vector3d least_faced(const DistributionMap& cells) {
   for (const NormalDistribution& cell : cells.distributions())
     if (cell.flat) facing += cell.normal * cell.normal.transpose();
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(facing).eigenvectors().col(0);
+}
+
+double noise_of(const DistributionMap& cells) {
+  constexpr std::size_t least_pieces = 200;
+  std::vector<double> thickness;
+  for (const NormalDistribution& cell : cells.distributions())
+    if (cell.flat) thickness.push_back(cell.thickness_m);
+  return thickness.size() < least_pieces ? 0.0 : median(thickness);
 }
 
 double mean_points(const std::vector<CellSums>& sums) {
@@ -72,6 +81,7 @@ PreparedScan prepare_scan(const std::string& name, const TileSource& source, dou
     scan.surfaces.emplace_back(sums, cell_m, planes.subspan(size, 2), scanner_at_origin);
   }
   if (scanner_at_origin) scan.ranges = RangeImage(scan.points);
+  scan.noise_m = noise_of(scan.pyramid.levels[scan.pyramid.level_near(0.2)]);
   scan.axis = least_faced(scan.pyramid.levels[scan.pyramid.level_near(0.4)]);
   return scan;
 }

@@ -21,6 +21,7 @@ struct PreparedScan {
   DistributionPyramid pyramid;          ///< from cells of twice the spacing on, of all points that were read
   std::vector<SurfaceMap> surfaces;     ///< pieces of piece_m, and twice, ... as large, to eight spacings
   double piece_m = 0.0;                 ///< size of the finest pieces that hold two points each or so
+  double noise_m = 0.0;                 ///< median thickness of flat pieces of 0.2 m; 0: too few of them
   RangeImage ranges;                    ///< of nothing where the file does not say where the scanner stood
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit direction that the fewest walls face: along a tunnel
 

@@ -104,6 +104,7 @@ struct PairResult {
   Eigen::Vector3d balance = Eigen::Vector3d::Zero();  ///< how much of the overlap faces along, across and up: sums to 1
   double agreeing = 0.0;  ///< share of either scan's points on the other's surface, where that shows one or saw through
   double seen_through = 0.0;  ///< share of them where the other scanner saw through
+  double noise_m = 0.0;       ///< of the noisier scan; 0: not known
   double scale = 1.0;         ///< how many times the source is too small against the target, were it free to grow
   double scale_sigma = 0.0;
   int iterations = 0;    ///< of the normal distributions transform

@@ -22,8 +22,8 @@ std::string why_not(const PairResult& pair, const RegistrationOptions& options) 
   }
   if (lies_well(pair)) return {};
   std::snprintf(words, sizeof words,
-                "lies on the same surfaces with only %.0f %% of what both show, %.1f %% seen through",
-                100.0 * pair.agreeing, 100.0 * pair.seen_through);
+                "lies on the same surfaces with only %.0f %% of what both show, median %.1f mm, %.1f %% seen through",
+                100.0 * pair.agreeing, 1e3 * pair.median_m, 100.0 * pair.seen_through);
   return words;
 }
 
@@ -84,6 +84,8 @@ std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const Reg
 
 bool lies_well(const PairResult& pair) {
   constexpr double least = 0.45, weight_of_seen_through = 3.0;  // as FitCheck::worth
+  constexpr double most_noises = 5.0;
+  if (pair.noise_m > 0.0 && pair.median_m > most_noises * pair.noise_m) return false;
   return pair.agreeing - weight_of_seen_through * pair.seen_through >= least;
 }
 

@@ -28,6 +28,8 @@ std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const Reg
 /// Whether what a pair shows in common lies on the same surfaces: 45 % of it, and three times what was seen through
 /// more. Less than any right place has, and as much as wrong ones in rock have; in a corridor a scan laid upon the
 /// other one agrees by 56 %, but 5 % was seen through.
+/// And the median residual must be within five times the scans' own noise: right places have 1 to 2 times, a scan
+/// turned about in rock of 30 mm has 9 times.
 bool lies_well(const PairResult& pair);
 
 /// register_pair, and when what the scans show does not agree near the guess, once more from where a search finds the

@@ -104,8 +104,8 @@ std::optional<std::size_t> wrong_node(const std::vector<Node>& nodes, const Matc
   return worst;
 }
 
-/// Nodes without a guess start where a partner puts them, those next to the others first. In a group without any guess
-/// the first node stays.
+/// Nodes without a guess start where a partner puts them, those next to the others first. A group without any guess
+/// stays.
 void start_from_partners(std::vector<Node>& nodes, const MatchedPairs& pairs) {
   std::vector<bool> stands;
   for (const Node& node : nodes) stands.push_back(has_guess(node));
