@@ -124,6 +124,18 @@ TEST(AlikeAlongSlow, OppositeFacesOfARibDoNotPullScansTogether) {
   EXPECT_LT(std::abs(found.error_m.x()), 4.0 * found.pair.sigma.along_m);
 }
 
+TEST(ScanPairsSlow, AGuessTurnedAboutIsNotBorneOutByRoughWalls) {
+  // Turned by half a circle a scan still lies within the roughness of a tunnel: half of it agrees.
+  const TwoScans scans = scans_of({.rib_m = 0.0, .roughness_m = 0.03});
+  const Pose truth = first.inverse() * second;
+  Pose guess = truth;
+  guess.linear() = truth.linear() * Eigen::AngleAxisd(pi, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  Progress progress;
+  const PairResult pair = matched_pair(scans.target, scans.source, guess, Start::guess, axis, {}, progress);
+  EXPECT_TRUE(!lies_well(pair) || distance_between_m(pair.target_from_source, truth) < 0.01);
+  EXPECT_TRUE(!lies_well(pair) || rotation_between_rad(pair.target_from_source, truth) < 0.01);
+}
+
 /// Two scans between which the face went on.
 TwoScans scans_before_a_face(double roughness_m, double went_on_m) {
   Progress progress;
