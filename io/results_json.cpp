@@ -79,6 +79,7 @@ json registration_json(const Results& results) {
          {"balance", {{"along", pair.balance.x()}, {"across", pair.balance.y()}, {"up", pair.balance.z()}}},
          {"agreeing", pair.agreeing},
          {"seen_through", pair.seen_through},
+         {"noise_m", pair.noise_m > 0.0 ? json(pair.noise_m) : json(nullptr)},
          {"scale_per_mille", 1e3 * (pair.scale - 1.0)},
          {"scale_sigma_per_mille", pair.scale_sigma > 0.0 ? json(1e3 * pair.scale_sigma) : json(nullptr)},
          {"iterations", pair.iterations},

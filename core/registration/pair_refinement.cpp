@@ -28,9 +28,7 @@ std::optional<Vector6d> step_of(const SurfaceMap& target, const SurfaceMap& sour
   if (matches.size() < least_matches) return std::nullopt;
   const double reach_m = std::max(least_reach_m, tukey_reach_m(matches, target.cell_m()));
   const NormalEquations equations = normal_equations(matches, reach_m);
-  // Far matches pull less the farther they are: the cost bends less than the weights say, and the steps would be short.
-  const double bend = std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.4, 1.0);
-  return Vector6d(step_without(equations, held, axes) / bend);
+  return Vector6d(step_without(equations, held, axes) / equations.bend());
 }
 
 /// The reach is first_reach_m, then reach_falls of it, and so on down to what the noise asks for: walls that fit

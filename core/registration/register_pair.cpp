@@ -57,12 +57,8 @@ LikestPlace likest_near(const PreparedScan& target, const PreparedScan& source, 
   return likest_along(target, source, place, base, search, options, progress);
 }
 
-/// Pairs of which less agrees do not fit each other everywhere (a scanner bends walls, something moved): they are asked
-/// twice more. Simulated rock has 0.75 to 0.95.
-constexpr double well_agreeing = 0.7;
-
-/// Where such a pair ends otherwise: begun on large pieces; with target and source exchanged, from the guess where
-/// there is one. And where points refined it, what surfaces say.
+/// Where a pair that does not agree well ends otherwise: begun on large pieces; with target and source exchanged, from
+/// the guess where there is one. And where points refined it, what surfaces say.
 std::vector<Pose> other_answers(const PreparedScan& target, const PreparedScan& source, const Pose& pose,
                                 const std::optional<Pose>& guess, const Eigen::Matrix3d& axes,
                                 const RegistrationOptions& options, Progress& progress) {
@@ -165,8 +161,7 @@ void hear_witnesses(PairResult& pair, const PreparedScan& target, const Prepared
     rest.apart.push_back(witness.stretch);
     share *= 1.0 - witness.share;
     const NormalEquations equations = normal_equations(outside(rest.apart, judged.matches, pose, axes), reach_m);
-    const double bend = std::clamp(equations.curvature / std::max(equations.weight, 1e-9), 0.4, 1.0);
-    const double asked_m = axes.row(along).dot(step_without(equations, {}, axes).tail<3>()) / bend;
+    const double asked_m = axes.row(along).dot(step_without(equations, {}, axes).tail<3>()) / equations.bend();
     const double loose_m = judged.known.sigma.along_m / std::sqrt(std::max(share, 1e-3));
     if (std::abs(asked_m) < std::max(least_m, loose_m)) continue;
     const Pose there = refined(target, source, pose, {}, axes, by_surfaces, progress, rest.apart);

@@ -8,6 +8,7 @@
 #include "core/foundation/angle.h"
 #include "core/geometry/pose_step.h"
 #include "core/geometry/statistics.h"
+#include "core/registration/fit_check.h"
 #include "core/registration/scan_pairs.h"
 
 namespace adit {
@@ -26,10 +27,7 @@ Eigen::Vector3d redundancy_of(const Pose& local_from_scan, const Matrix6d& covar
   return (Eigen::Vector3d::Ones() - taken).cwiseMax(0.0).cwiseMin(1.0);
 }
 
-// Right pairs of simulated rock have 0.75 to 0.95, those of a real room 0.63, of a real corridor 0.50 to 0.60; wrong
-// places in rock that a guess bears out have up to 0.55.
-constexpr double well_agreeing = 0.7;
-constexpr double hardly_agreeing = 0.6;
+constexpr double hardly_agreeing = 0.6;  // wrong places in rock that a guess bears out have up to 0.55
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -75,6 +73,33 @@ bool are_tied(const std::vector<PairResult>& pairs, const std::string& one, cons
   return reached.count(other) > 0;
 }
 
+/// Where a pair fits as well elsewhere along the tunnel, one thing alone tells, or something has moved.
+void report_along(const PairResult& pair, const std::string& subject, Findings& findings) {
+  const char* const know_along = "survey targets, or state in registration.guess_sigma_m how well the poses are known";
+  char words[200];
+  if (pair.alike_m != 0.0) {
+    std::snprintf(words, sizeof words,
+                  "fits as well %.2f m farther %s the tunnel, where its ribs or rings repeat: \"along\" is held",
+                  std::abs(pair.alike_m), pair.alike_m > 0.0 ? "along" : "back along");
+    findings.push_back({Severity::warning, subject, words, know_along});
+  }
+  if (!pair.lone_witness.is_empty()) {
+    std::snprintf(words, sizeof words,
+                  "only what stands %.1f to %.1f m along the tunnel from %s tells \"along\", and it may have moved "
+                  "between the scans: \"along\" is held",
+                  pair.lone_witness.from_m, pair.lone_witness.to_m, pair.target.c_str());
+    findings.push_back({Severity::warning, subject, words, know_along});
+  }
+  if (!pair.moved.empty()) {
+    std::snprintf(words, sizeof words,
+                  "what stands %.1f to %.1f m along the tunnel from %s has moved by %.0f mm along it between the "
+                  "scans, if the rest has not: it was left out",
+                  pair.moved.back().from_m, pair.moved.back().to_m, pair.target.c_str(), 1e3 * pair.moved_m);
+    findings.push_back({Severity::warning, subject, words,
+                        "look at the scans from above; survey targets where the rest may have moved"});
+  }
+}
+
 std::string mend_of(Suspect::Kind kind) {
   switch (kind) {
     case Suspect::Kind::pair:
@@ -111,31 +136,7 @@ void report_pairs(RegistrationResult& result, const RegistrationOptions& options
       result.findings.push_back({pair.agreeing < hardly_agreeing ? Severity::decision : Severity::warning, subject,
                                  words, "look at the picture of their overlap, and check the poses of both"});
     }
-    if (pair.alike_m != 0.0) {
-      std::snprintf(words, sizeof words,
-                    "fits as well %.2f m farther %s the tunnel, where its ribs or rings repeat: \"along\" is held",
-                    std::abs(pair.alike_m), pair.alike_m > 0.0 ? "along" : "back along");
-      result.findings.push_back(
-          {Severity::warning, subject, words,
-           "survey targets, or state in registration.guess_sigma_m how well the poses are known"});
-    }
-    if (!pair.lone_witness.is_empty()) {
-      std::snprintf(words, sizeof words,
-                    "only what stands %.1f to %.1f m along the tunnel from %s tells \"along\", and it may have moved "
-                    "between the scans: \"along\" is held",
-                    pair.lone_witness.from_m, pair.lone_witness.to_m, pair.target.c_str());
-      result.findings.push_back(
-          {Severity::warning, subject, words,
-           "survey targets, or state in registration.guess_sigma_m how well the poses are known"});
-    }
-    if (!pair.moved.empty()) {
-      std::snprintf(words, sizeof words,
-                    "what stands %.1f to %.1f m along the tunnel from %s has moved by %.0f mm along it between the "
-                    "scans, if the rest has not: it was left out",
-                    pair.moved.back().from_m, pair.moved.back().to_m, pair.target.c_str(), 1e3 * pair.moved_m);
-      result.findings.push_back({Severity::warning, subject, words,
-                                 "look at the scans from above; survey targets where the rest may have moved"});
-    }
+    report_along(pair, subject, result.findings);
     if (is_other_scale(pair)) {
       std::snprintf(words, sizeof words, " shows everything %.2f per mille %s (sigma %.2f) than ",
                     1e3 * std::abs(pair.scale - 1.0), pair.scale > 1.0 ? "smaller" : "larger", 1e3 * pair.scale_sigma);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/foundation/parallel.h"
+#include "core/registration/fit_check.h"
 #include "core/registration/found_place.h"
 #include "core/registration/pair_sheet.h"
 
@@ -83,10 +84,9 @@ std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const Reg
 }
 
 bool lies_well(const PairResult& pair) {
-  constexpr double least = 0.45, weight_of_seen_through = 3.0;  // as FitCheck::worth
-  constexpr double most_noises = 5.0;
+  constexpr double least_worth = 0.45, most_noises = 5.0;
   if (pair.noise_m > 0.0 && pair.median_m > most_noises * pair.noise_m) return false;
-  return pair.agreeing - weight_of_seen_through * pair.seen_through >= least;
+  return FitCheck{0.0, pair.agreeing, pair.seen_through}.worth() >= least_worth;
 }
 
 PairResult matched_pair(const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,

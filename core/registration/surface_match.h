@@ -1,6 +1,7 @@
 #pragma once
 // Pieces of two scans' surfaces laid upon each other, and what the distances between them say about the pose.
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <span>
@@ -73,6 +74,10 @@ struct NormalEquations {
   /// The part of the hessian that comes from the normals' own errors e, measured: sum w B e e^T B^T with B = [[arm]x;
   /// I]. A featureless wall seen with noise has a hessian along itself made of noise alone.
   Matrix6d noise = Matrix6d::Zero();
+
+  /// Far matches pull less the farther they are: the cost bends less than the weights say, and steps would be short by
+  /// this.
+  double bend() const { return std::clamp(curvature / std::max(weight, 1e-9), 0.4, 1.0); }
 
   NormalEquations& operator+=(const NormalEquations& other);
 };

@@ -147,7 +147,7 @@ void take_back_right_guesses(const std::vector<Node>& guessed, std::vector<Node>
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (distance_between_m(guessed[i].start, nodes[i].start) <= wrong_sigmas * options.guess_sigma_m &&
         rotation_between_rad(guessed[i].start, nodes[i].start) <= most_rad)
-      nodes[i].by = guessed[i].by;
+      nodes[i] = guessed[i];
 }
 
 void report_wrong_guesses(const std::vector<Node>& guessed, const std::vector<Node>& nodes, Findings& findings) {

@@ -124,16 +124,21 @@ TEST(AlikeAlongSlow, OppositeFacesOfARibDoNotPullScansTogether) {
   EXPECT_LT(std::abs(found.error_m.x()), 4.0 * found.pair.sigma.along_m);
 }
 
-TEST(ScanPairsSlow, AGuessTurnedAboutIsNotBorneOutByRoughWalls) {
-  // Turned by half a circle a scan still lies within the roughness of a tunnel: half of it agrees.
-  const TwoScans scans = scans_of({.rib_m = 0.0, .roughness_m = 0.03});
-  const Pose truth = first.inverse() * second;
-  Pose guess = truth;
-  guess.linear() = truth.linear() * Eigen::AngleAxisd(pi, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  Progress progress;
-  const PairResult pair = matched_pair(scans.target, scans.source, guess, Start::guess, axis, {}, progress);
-  EXPECT_TRUE(!lies_well(pair) || distance_between_m(pair.target_from_source, truth) < 0.01);
-  EXPECT_TRUE(!lies_well(pair) || rotation_between_rad(pair.target_from_source, truth) < 0.01);
+TEST(ScanPairs, WhatAPairShowsMustLieOnTheSameSurfaces) {
+  const auto lies = [](double agreeing, double seen_through, double median_m, double noise_m) {
+    PairResult pair;
+    pair.agreeing = agreeing;
+    pair.seen_through = seen_through;
+    pair.median_m = median_m;
+    pair.noise_m = noise_m;
+    return lies_well(pair);
+  };
+  EXPECT_TRUE(lies(0.95, 0.0, 0.0018, 0.0021));
+  EXPECT_TRUE(lies(0.50, 0.002, 0.0103, 0.0062));   // the real corridor
+  EXPECT_FALSE(lies(0.56, 0.047, 0.0085, 0.0062));  // the same, one scan upon the other
+  EXPECT_FALSE(lies(0.52, 0.0, 0.0181, 0.0021));    // turned about in rock of 30 mm
+  EXPECT_TRUE(lies(0.52, 0.0, 0.0181, 0.0));        // nothing known of the noise
+  EXPECT_FALSE(lies(0.44, 0.0, 0.0018, 0.0021));
 }
 
 /// Two scans between which the face went on.
