@@ -23,7 +23,7 @@ HEAVY = {
     r"^pcl/": r"_pcl\.(cpp|h)$|^io/pcd",
     r"^E57": r"^io/\w+_e57format\.(cpp|h)$",
     r"^laszip/": r"^io/\w+_laszip\.(cpp|h)$",
-    r"^CGAL/": r"_cgal\.cpp$",
+    r"^CGAL/": r"_cgal\.(cpp|h)$",
     r"^ceres/": r"_ceres\.cpp$",
     r"^polyclipping/": r"_clipper\.cpp$",
     r"^OpenMesh/": r"^core/surface/",

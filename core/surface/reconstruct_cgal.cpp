@@ -1,5 +1,3 @@
-#include <CGAL/Advancing_front_surface_reconstruction.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/property_map.h>
@@ -10,17 +8,13 @@
 #include <limits>
 
 #include "core/foundation/error.h"
+#include "core/surface/ordered_triangulation_cgal.h"
 #include "core/surface/reconstruct.h"
 
 namespace adit {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Facet = std::array<std::size_t, 3>;
-using Structure =
-    CGAL::Triangulation_data_structure_3<CGAL::Advancing_front_surface_reconstruction_vertex_base_3<Kernel>,
-                                         CGAL::Advancing_front_surface_reconstruction_cell_base_3<Kernel>>;
-using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
 
 /// The front never takes a triangle with an edge longer than this. Asked for every candidate, so that a cancel is
 /// heard.

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "core/cleaning/no_returns.h"
 #include "core/foundation/angle.h"
@@ -50,6 +52,31 @@ TEST(Surface, AHoleWiderThanTheLongestEdgeStaysOpenAndIsCounted) {
   const MeshSummary summary = summarise(reconstruct(tube(true), {{0, 5, 0}}, {}, progress));
   EXPECT_EQ(summary.boundary_loops, 3U);
   EXPECT_NEAR(summary.holes_m, 2.0 * (1.8 + 1.8), 1.0);
+}
+
+/// Leaves the memory in pieces of many sizes whose addresses follow no order.
+void scatter_memory(std::uint64_t seed) {
+  const Random random(seed);
+  std::vector<std::unique_ptr<char[]>> pieces(400000);
+  std::uint64_t i = 0;
+  for (auto& piece : pieces) piece = std::make_unique<char[]>(16 + random.bits(i++) % 600);
+  for (std::size_t n = pieces.size(); n > 1; --n) std::swap(pieces[n - 1], pieces[random.bits(i++) % n]);
+  for (std::size_t n = 0; n + n / 8 < pieces.size(); ++n) pieces[n].reset();
+}
+
+TEST(Surface, DoesNotDependOnWhatTheMemoryHeld) {
+  std::vector<Eigen::Vector3d> points = tube(true);
+  const Random random(7);
+  for (std::size_t i = 0; i < points.size(); ++i)  // rough enough that edges wait and points are taken out again
+    for (int k = 0; k < 3; ++k) points[i][k] += 0.06 * random.normal(3 * i + static_cast<std::uint64_t>(k));
+  Progress progress;
+  const MeshArrays first = mesh_arrays(reconstruct(points, {{0, 5, 0}}, {}, progress));
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    scatter_memory(seed);
+    const MeshArrays again = mesh_arrays(reconstruct(points, {{0, 5, 0}}, {}, progress));
+    EXPECT_EQ(again.points, first.points);
+    EXPECT_EQ(again.triangles, first.triangles);
+  }
 }
 
 TEST(Surface, TooFewPointsAreRefused) {
