@@ -52,13 +52,16 @@ void describe(Visitor& v, RegistrationOptions& o) {
   v.number("control_sigma_m", o.control_sigma_m, "m", 0.0001, 0.1, "noise of a target against its control point");
   v.number("pair_sigma_m", o.pair_sigma_m, "m", 0.0, 0.1,
            "least sigma of a pair: what its measured scatter leaves out");
-  v.number("undetermined_sigma_m", o.undetermined_sigma_m, "m", 0.002, 1.0,
+  v.number("undetermined_sigma_m", o.undetermined_sigma_m, "m", 0.002, 0.1,
            "a direction weaker than this is named and held at its prior");
   visit_choice(v, "ndt_sources", o.ndt_sources, {"distributions", "points"},
                "what of one scan is laid on the distributions of the other by the normal distributions transform");
   visit_choice(v, "refinement", o.refinement, {"surfaces", "points"},
                "what refines a pair: the surfaces of both scans, or iterative closest point by the options of icp");
 }
+
+/// Turns count where walls stand, about so far from a scanner.
+inline constexpr double wall_lever_m = 5.0;
 
 /// One scan to be placed. Frames: scan frame, and the local frame (site minus project origin).
 struct ScanToPlace {

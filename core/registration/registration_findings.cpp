@@ -214,7 +214,6 @@ void report_control(RegistrationResult& result, const Adjustment& adjustment, co
 }
 
 void name_undetermined(PlacedScan& scan, bool guessed, const RegistrationOptions& options, Findings& findings) {
-  constexpr double lever_m = 5.0;     // walls stand about so far away
   constexpr double as_a_guess = 0.5;  // of its sigma: better is told by something else
   bool held = guessed;
   const PoseSigma& sigma = scan.sigma;
@@ -227,13 +226,13 @@ void name_undetermined(PlacedScan& scan, bool guessed, const RegistrationOptions
     std::snprintf(words, sizeof words, format, direction, shown);
     weak += (weak.empty() ? "" : ", ") + std::string(words);
   };
-  const double turn_m = lever_m * rad_from_deg(options.guess_sigma_deg);
+  const double turn_m = wall_lever_m * rad_from_deg(options.guess_sigma_deg);
   name("along", sigma.along_m, options.guess_sigma_m, 1000.0 * sigma.along_m, "%s the tunnel (sigma %.0f mm)");
   name("across", sigma.across_m, options.guess_sigma_m, 1000.0 * sigma.across_m, "%s the tunnel (sigma %.0f mm)");
   name("up", sigma.up_m, options.guess_sigma_m, 1000.0 * sigma.up_m, "%s (sigma %.0f mm)");
-  name("roll", lever_m * sigma.roll_rad, turn_m, deg_from_rad(sigma.roll_rad), "%s (sigma %.2f degrees)");
-  name("pitch", lever_m * sigma.pitch_rad, turn_m, deg_from_rad(sigma.pitch_rad), "%s (sigma %.2f degrees)");
-  name("yaw", lever_m * sigma.yaw_rad, turn_m, deg_from_rad(sigma.yaw_rad), "%s (sigma %.2f degrees)");
+  name("roll", wall_lever_m * sigma.roll_rad, turn_m, deg_from_rad(sigma.roll_rad), "%s (sigma %.2f degrees)");
+  name("pitch", wall_lever_m * sigma.pitch_rad, turn_m, deg_from_rad(sigma.pitch_rad), "%s (sigma %.2f degrees)");
+  name("yaw", wall_lever_m * sigma.yaw_rad, turn_m, deg_from_rad(sigma.yaw_rad), "%s (sigma %.2f degrees)");
   if (weak.empty()) return;
   findings.push_back({Severity::decision, "scan " + scan.name,
                       weak + (held ? ": not determined by the clouds, held at the guess" : ": known too weakly"),
@@ -257,9 +256,8 @@ void compare_with_guess(const PlacedScan& scan, const Node& node, const Registra
 }
 
 void report_loops(RegistrationResult& result, const RegistrationOptions& options) {
-  constexpr double lever_m = 5.0;
   for (const LoopClosure& loop : result.loops) {
-    if (std::max(loop.before_m, lever_m * loop.before_rad) <= options.undetermined_sigma_m) continue;
+    if (std::max(loop.before_m, wall_lever_m * loop.before_rad) <= options.undetermined_sigma_m) continue;
     char words[200];
     std::snprintf(words, sizeof words,
                   "the pairs around it leave %.0f mm and %.2f degrees open, all refined together %.0f mm and %.2f",

@@ -32,9 +32,12 @@ std::string mdeg(double angle_rad) {
   return fixed(1000.0 * deg_from_rad(angle_rad), 1);
 }
 
-/// Of a pair by itself: what it does not know has no number.
-TableCell known(const PairResult& pair, const char* direction, double value) {
-  return has(pair.undetermined, direction) ? TableCell("\u2013", colours::red, true) : TableCell(fixed(value, 1));
+/// Of a pair by itself, in red where it is known too weakly: what it does not know has no number. `shown` is the sigma
+/// in the column's unit, `at_walls_m` what it comes to at the walls.
+TableCell known(const PairResult& pair, const char* direction, double shown, double at_walls_m, double limit_m) {
+  if (has(pair.undetermined, direction)) return {"\u2013", colours::red, true};
+  const bool weak = at_walls_m > limit_m;
+  return {fixed(shown, 1), weak ? colours::red : colours::black, weak};
 }
 
 /// The pairs that were used, between their stations.
@@ -157,7 +160,7 @@ void add_pairs(PageFlow& flow, const Results& results) {
   flow.skip(2.0);
 }
 
-void add_what_pairs_know(PageFlow& flow, const Results& results) {
+void add_what_pairs_know(PageFlow& flow, const Results& results, const RegistrationOptions& options) {
   const std::vector<PairResult>& pairs = results.registration.pairs;
   if (pairs.empty()) return;
   flow.subheading("What the pairs know, each alone (one standard deviation)");
@@ -172,15 +175,22 @@ void add_what_pairs_know(PageFlow& flow, const Results& results) {
                {"not determined", 48, false}},
               {},
               2.2};
-  for (const PairResult& p : pairs)
+  for (const PairResult& p : pairs) {
+    const auto move = [&](const char* direction, double sigma_m) {
+      return known(p, direction, 1000.0 * sigma_m, sigma_m, options.undetermined_sigma_m);
+    };
+    const auto turn = [&](const char* direction, double sigma_rad) {
+      return known(p, direction, 1000.0 * deg_from_rad(sigma_rad), wall_lever_m * sigma_rad,
+                   options.undetermined_sigma_m);
+    };
     table.rows.push_back(
-        {p.source, p.target, known(p, "along", 1e3 * p.sigma.along_m), known(p, "across", 1e3 * p.sigma.across_m),
-         known(p, "up", 1e3 * p.sigma.up_m), known(p, "roll", 1e3 * deg_from_rad(p.sigma.roll_rad)),
-         known(p, "pitch", 1e3 * deg_from_rad(p.sigma.pitch_rad)), known(p, "yaw", 1e3 * deg_from_rad(p.sigma.yaw_rad)),
+        {p.source, p.target, move("along", p.sigma.along_m), move("across", p.sigma.across_m), move("up", p.sigma.up_m),
+         turn("roll", p.sigma.roll_rad), turn("pitch", p.sigma.pitch_rad), turn("yaw", p.sigma.yaw_rad),
          TableCell(joined(p.undetermined) + (p.alike_m == 0.0 ? ""
                                                               : " (as well " + fixed(std::abs(p.alike_m), 2) +
                                                                     (p.alike_m > 0.0 ? " m on)" : " m back)")),
                    colours::red, true)});
+  }
   flow.table(table);
 }
 
@@ -288,7 +298,7 @@ void add_registration_pages(PageFlow& flow, const ReportContent& content) {
                        " times beyond their own sigmas; those of the scans are multiplied by it.",
                    colours::grey, 2.3);
   add_pairs(flow, results);
-  add_what_pairs_know(flow, results);
+  add_what_pairs_know(flow, results, content.job->options.registration);
   add_loops(flow, results);
   add_control(flow, results);
   add_pair_sections(flow, content);
