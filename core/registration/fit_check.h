@@ -25,6 +25,9 @@ struct FitCheck {
 /// 0.60.
 inline constexpr double well_agreeing = 0.7;
 
+/// Surfaces that met elsewhere do not meet where so much less agrees. Smooth walls agree everywhere alike.
+inline constexpr double clearly_less_agreeing = 0.1;
+
 /// near_m: how far a point may be off the other's surface (or three times the thickness found there); more for poses
 /// that are not refined yet.
 FitCheck check_fit(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,

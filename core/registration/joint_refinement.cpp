@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/foundation/parallel.h"
+#include "core/registration/fit_check.h"
 #include "core/registration/observability.h"
 #include "core/registration/pair_refinement.h"
 
@@ -27,6 +28,11 @@ double farthest_move_m(const PoseGraphResult& before, const PoseGraphResult& aft
   return farthest;
 }
 
+/// What is held along the tunnel went back to its guess: ribs and rock may not meet there.
+bool still_meets(const PairResult& pair, const PreparedScan& target, const PreparedScan& source, const Pose& now) {
+  return check_fit(target, source, now).agreeing >= pair.agreeing - clearly_less_agreeing;
+}
+
 }  // namespace
 
 JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustment, const std::vector<Node>& nodes,
@@ -34,12 +40,12 @@ JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustm
                                Progress& progress) {
   JointRefinement joint{used_part(graph, adjustment), adjustment.solved};
   std::vector<HeldDirections> held;
-  std::vector<bool> alike;
+  std::vector<const PairResult*> of;
   std::vector<std::vector<Stretch>> apart;
   for (const PairResult& pair : pairs) {
     if (!pair.used) continue;
     held.push_back(held_directions(pair.undetermined));
-    alike.push_back(pair.alike_m != 0.0);
+    of.push_back(&pair);
     apart.push_back(pair.moved);
     if (!pair.lone_witness.is_empty()) apart.back().push_back(pair.lone_witness);
   }
@@ -48,7 +54,7 @@ JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustm
     parallel_for_each_index(
         joint.graph.pairs.size(),
         [&](std::size_t k) {
-          if (alike[k]) return;
+          if (of[k]->alike_m != 0.0) return;
           GraphPair& pair = joint.graph.pairs[k];
           const Node& target = nodes[pair.target];
           const Pose now =
@@ -56,6 +62,7 @@ JointRefinement refine_jointly(const PoseGraph& graph, const Adjustment& adjustm
           const Eigen::Vector3d axis = target.start.linear().transpose() * axis_at(context, target, target.start);
           const bool knows_all = held[k] == HeldDirections{};
           if (knows_all && distance_between_m(now, pair.target_from_source) > farthest_m) return;  // it has slipped
+          if (!knows_all && !still_meets(*of[k], *target.prepared, *nodes[pair.source].prepared, now)) return;
           if (const auto asked = one_step(*target.prepared, *nodes[pair.source].prepared, now, held[k],
                                           tunnel_axes(axis), apart[k], progress))
             pair.target_from_source = *asked;

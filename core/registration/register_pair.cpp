@@ -112,17 +112,40 @@ Vector6d difference(const Pose& from, const Pose& to) {
   return result;
 }
 
+bool meets_worse(const PreparedScan& target, const PreparedScan& source, const Pose& there, const Pose& pose) {
+  return check_fit(target, source, there).agreeing < check_fit(target, source, pose).agreeing - clearly_less_agreeing;
+}
+
+/// How far along a slide the most agrees: a rib's distance, where there are ribs.
+double best_length_m(const PreparedScan& target, const PreparedScan& source, const Pose& pose, const Slide& slide) {
+  constexpr double least_m = 0.3, most_m = 2.5, step_m = 0.05;
+  double best_m = least_m, most_agreeing = 0.0;
+  for (int i = 0; least_m + i * step_m <= most_m; ++i)
+    for (const double sign : {1.0, -1.0}) {
+      const double length_m = sign * (least_m + i * step_m);
+      const double agreeing = check_fit(target, source, slid(pose, slide, length_m)).agreeing;
+      if (agreeing > most_agreeing) best_m = length_m, most_agreeing = agreeing;
+    }
+  return best_m;
+}
+
 /// How a pair that is held along the tunnel would move along it: as to where it ends when it is held elsewhere, which
-/// says more than the surfaces at one place.
+/// says more than the surfaces at one place. Between ribs it would ride on them: there it is held a rib's distance on.
 Slide slide_of(const PreparedScan& target, const PreparedScan& source, const Pose& pose, const HeldDirections& held,
                const Slide& estimate, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
                Progress& progress) {
   constexpr double farthest_off_m = 0.1;  // farther from where it was to be, it has slipped
-  const double length_m = std::clamp(2.0 * options.guess_sigma_m, 0.5, 2.0);
-  const Pose moved = slid(pose, estimate, length_m);
-  const Pose there = refined(target, source, moved, held, axes, options, progress);
-  if (distance_between_m(moved, there) > farthest_off_m) return estimate;
-  return slide_between(pose, there, axes.row(along).transpose());
+  const auto held_at = [&](double length_m) -> std::optional<Pose> {
+    const Pose moved = slid(pose, estimate, length_m);
+    const Pose there = refined(target, source, moved, held, axes, options, progress);
+    if (distance_between_m(moved, there) > farthest_off_m) return std::nullopt;
+    return there;
+  };
+  std::optional<Pose> there = held_at(std::clamp(2.0 * options.guess_sigma_m, 0.5, 2.0));
+  if (!there || meets_worse(target, source, *there, pose))
+    there = held_at(best_length_m(target, source, pose, estimate));
+  if (!there || meets_worse(target, source, *there, pose)) return estimate;
+  return slide_between(pose, *there, axes.row(along).transpose());
 }
 
 /// What is held stands at the guess.
@@ -187,6 +210,18 @@ void hear_witnesses(PairResult& pair, const PreparedScan& target, const Prepared
   }
 }
 
+/// With what is not determined at the guess. Ribs may be too thin to tell where along a scan stands and yet not meet
+/// there: then what surfaces tell of the other directions they tell where they meet, and it stays there.
+Pose held_pose(const PreparedScan& target, const PreparedScan& source, const Pose& guess, const Pose& pose,
+               const HeldDirections& at_guess, const Known& beside, const PairInformation& known,
+               const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress,
+               const std::vector<Stretch>& moved) {
+  const Pose back = put_back(guess, pose, at_guess, known.ways, axes);
+  const Pose there = refined(target, source, back, beside.held, axes, options, progress, moved);
+  if (!meets_worse(target, source, there, pose)) return there;
+  return refined(target, source, pose, beside.held, axes, options, progress, moved);
+}
+
 /// Where the transform and the surfaces put it.
 Pose placed(PairResult& pair, const PreparedScan& target, const PreparedScan& source, const Pose& guess, Start start,
             const Eigen::Matrix3d& axes, const RegistrationOptions& options, Progress& progress) {
@@ -239,8 +274,7 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   beside.held = at_guess;
   beside.held[along] = at_guess[along] || pair.alike_m != 0.0 || !pair.lone_witness.is_empty();
   if (beside.held != HeldDirections{}) {
-    pose = put_back(guess, pose, at_guess, judged.known.ways, axes);
-    pose = refined(target, source, pose, beside.held, axes, options, last, pair.moved);
+    pose = held_pose(target, source, guess, pose, at_guess, beside, judged.known, axes, options, last, pair.moved);
     judged = judge(target, source, pose, axes, beside, options, last);
     if (beside.held[along] && pair.alike_m == 0.0) {
       beside.slide = slide_of(target, source, pose, beside.held, judged.known.ways[along], axes, options, last);
