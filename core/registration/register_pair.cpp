@@ -129,12 +129,20 @@ double best_length_m(const PreparedScan& target, const PreparedScan& source, con
   return best_m;
 }
 
+/// As surfaces that hardly tell another direction ask, a scan may turn over on a metre along: no tunnel bends so.
+Slide straight_unless_tunnel(const Slide& slide, const Eigen::Vector3d& axis) {
+  constexpr double most_turn_per_m = 0.2, most_way_per_m = 1.5;
+  const bool is_tunnel = slide.turn_rad.norm() <= most_turn_per_m && slide.shift_m.norm() <= most_way_per_m;
+  return is_tunnel ? slide : Slide{Eigen::Vector3d::Zero(), axis};
+}
+
 /// How a pair that is held along the tunnel would move along it: as to where it ends when it is held elsewhere, which
 /// says more than the surfaces at one place. Between ribs it would ride on them: there it is held a rib's distance on.
 Slide slide_of(const PreparedScan& target, const PreparedScan& source, const Pose& pose, const HeldDirections& held,
-               const Slide& estimate, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
+               const Slide& asked, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
                Progress& progress) {
   constexpr double farthest_off_m = 0.1;  // farther from where it was to be, it has slipped
+  const Slide estimate = straight_unless_tunnel(asked, axes.row(along).transpose());
   const auto held_at = [&](double length_m) -> std::optional<Pose> {
     const Pose moved = slid(pose, estimate, length_m);
     const Pose there = refined(target, source, moved, held, axes, options, progress);
@@ -160,52 +168,79 @@ PoseSigma as_guessed_where_held(const PairInformation& known, const Registration
   return sigma;
 }
 
+/// A pose, and how it is known.
+struct Elsewhere {
+  Pose pose;
+  Judged judged;
+};
+
+/// Where along the tunnel what stands outside the witnesses puts the scan. Nothing, where it asks for no more of a step
+/// than it knows (or tells nothing here), and tells it nowhere else within reach either.
+std::optional<Elsewhere> put_by_rest(const PreparedScan& target, const PreparedScan& source, const Pose& pose,
+                                     const Judged& judged, const Known& rest, const Witness& last, double share,
+                                     const AlongSearch& search, const Eigen::Matrix3d& axes,
+                                     const RegistrationOptions& options, Progress& progress) {
+  constexpr double least_m = 3e-4;    // of a step: less does not matter
+  constexpr double most_share = 0.5;  // of what tells "along": more of it is rock on all sides
+  RegistrationOptions by_surfaces = options;
+  by_surfaces.refinement = Refinement::surfaces;
+  const NormalEquations equations = normal_equations(outside(rest.apart, judged.matches, pose, axes),
+                                                     tukey_reach_m(judged.matches, piece_of(target, source)));
+  const double asked_m = axes.row(along).dot(step_without(equations, {}, axes).tail<3>()) / equations.bend();
+  const double loose_m = judged.known.sigma.along_m / std::sqrt(std::max(share, 1e-3));
+  double shift_m = 0.0;
+  if (!last.borne_out || std::abs(asked_m) < std::max(least_m, loose_m)) {
+    if (rest.apart.size() < 2 || share > most_share) return std::nullopt;
+    const double guess_m = shift_along_m(pose, search.guess, search.axis);
+    shift_m = likelier_shift_m(target, source, pose, search.axis, guess_m - search.reach_m, guess_m + search.reach_m,
+                               rest.apart, progress);
+    if (shift_m == 0.0) return std::nullopt;
+  }
+  Elsewhere there;
+  there.pose = refined(target, source, Eigen::Translation3d(shift_m * search.axis) * pose, {}, axes, by_surfaces,
+                       progress, rest.apart);
+  there.judged = judge(target, source, there.pose, axes, rest, options, progress);
+  return there;
+}
+
 /// The first thing that tells "along" may have moved, or the first two: whether what stands elsewhere tells the same.
 /// Where nothing else tells, the first is a lone witness. Where the rest puts the scan elsewhere, it is believed, and
 /// what has moved is left out; where it nearly does, that is an error.
-void hear_witnesses(PairResult& pair, const PreparedScan& target, const PreparedScan& source, Pose& pose,
-                    Judged& judged, Known& beside, const Eigen::Matrix3d& axes, const RegistrationOptions& options,
-                    Progress& progress) {
+void hear_witnesses(PairResult& pair, const PreparedScan& target, const PreparedScan& source, const AlongSearch& search,
+                    Pose& pose, Judged& judged, Known& beside, const Eigen::Matrix3d& axes,
+                    const RegistrationOptions& options, Progress& progress) {
   constexpr double contradicts_sigmas = 4.0;
-  constexpr double least_m = 3e-4;  // of a step: less does not matter
-  RegistrationOptions by_surfaces = options;
-  by_surfaces.refinement = Refinement::surfaces;
-  const double size_m = piece_of(target, source);
-  const double reach_m = tukey_reach_m(judged.matches, size_m);
+  const double near_m = 2.0 * tukey_reach_m(judged.matches, piece_of(target, source));
   Known rest = beside;
   double share = 1.0;
   for (int heard = 0; heard < 2; ++heard) {
-    const Witness witness =
-        strongest_witness(target, source, pose, axes.row(along).transpose(), 2.0 * reach_m, rest.apart, progress);
-    if (!witness.borne_out) {
-      if (heard == 0) beside.apart = {pair.lone_witness = witness.stretch};
-      return;  // two that tell the same bear each other out
+    const Witness witness = strongest_witness(target, source, pose, search.axis, near_m, rest.apart, progress);
+    if (!witness.borne_out && heard == 0) {
+      beside.apart = {pair.lone_witness = witness.stretch};
+      return;
     }
     rest.apart.push_back(witness.stretch);
     share *= 1.0 - witness.share;
-    const NormalEquations equations = normal_equations(outside(rest.apart, judged.matches, pose, axes), reach_m);
-    const double asked_m = axes.row(along).dot(step_without(equations, {}, axes).tail<3>()) / equations.bend();
-    const double loose_m = judged.known.sigma.along_m / std::sqrt(std::max(share, 1e-3));
-    if (std::abs(asked_m) < std::max(least_m, loose_m)) continue;
-    const Pose there = refined(target, source, pose, {}, axes, by_surfaces, progress, rest.apart);
-    const Judged judged_there = judge(target, source, there, axes, rest, options, progress);
-    if (judged_there.known.undetermined[along]) {  // it does not bear the witness out, and knows no better
+    const auto there = put_by_rest(target, source, pose, judged, rest, witness, share, search, axes, options, progress);
+    if (!there) continue;                           // two that tell the same bear each other out
+    if (there->judged.known.undetermined[along]) {  // it does not bear the witness out, and knows no better
       pair.lone_witness = witness.stretch;
       beside.apart = rest.apart;
       return;
     }
-    const double moved_m = shift_along_m(there, pose, axes.row(along).transpose());
-    const bool clear = std::abs(moved_m) >= contradicts_sigmas * judged_there.known.sigma.along_m;
-    if (!clear || check_fit(target, source, there).agreeing < well_agreeing) {  // bent scans differ from place to place
-      beside.other_answers.push_back(difference(pose, there));
+    const double moved_m = shift_along_m(there->pose, pose, search.axis);
+    const bool clear = std::abs(moved_m) >= contradicts_sigmas * there->judged.known.sigma.along_m;
+    if (!clear ||
+        check_fit(target, source, there->pose).agreeing < well_agreeing) {  // bent scans differ from place to place
+      beside.other_answers.push_back(difference(pose, there->pose));
       judged = judge(target, source, pose, axes, beside, options, progress);
       continue;
     }
     pair.moved = rest.apart;
     pair.moved_m = moved_m;
     beside.apart = rest.apart;
-    pose = there;
-    judged = judged_there;
+    pose = there->pose;
+    judged = there->judged;
     return;
   }
 }
@@ -250,9 +285,9 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   Progress last = progress.part(0.3, "");
   Known beside;
   Pose pose = placed(pair, target, source, guess, start, axes, options, transform);
+  const AlongSearch search{axis_in_target, guess, start == Start::found ? found_reach_m : 3.0 * options.guess_sigma_m};
   if (start != Start::surveyed) {
-    const double reach_m = start == Start::found ? found_reach_m : 3.0 * options.guess_sigma_m;
-    const LikestPlace likest = likest_near(target, source, pose, {axis_in_target, guess, reach_m}, options, last);
+    const LikestPlace likest = likest_near(target, source, pose, search, options, last);
     pose = likest.target_from_source;
     pair.alike_m = likest.alike_m;
     beside.slide = likest.slide;
@@ -262,7 +297,7 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   if (at_guess[along]) {
     pair.alike_m = 0.0;  // smooth walls: what is alike there is noise
   } else if (pair.alike_m == 0.0) {
-    hear_witnesses(pair, target, source, pose, judged, beside, axes, options, last);
+    hear_witnesses(pair, target, source, search, pose, judged, beside, axes, options, last);
   }
   std::vector<Pose> others;
   if (pair.moved.empty())

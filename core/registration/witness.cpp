@@ -1,7 +1,10 @@
 #include "core/registration/witness.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
+#include "core/geometry/statistics.h"
 #include "core/registration/pair_refinement.h"
 #include "core/registration/slope_likeness.h"
 
@@ -27,6 +30,23 @@ std::size_t strongest(const SlopesAlong& slopes, std::size_t many) {
   return best;
 }
 
+bool is_apart(std::size_t stretch, std::span<const Stretch> apart) {
+  return is_in(SlopesAlong::begin_m(stretch) + 0.5 * SlopesAlong::length_m, apart);
+}
+
+/// How alike the stretches are, each by itself and weighed by its pieces: a machine or a face slopes more than all of
+/// the rock, but stands in few of them.
+double votes(const SlopesAlong& slopes, std::span<const Stretch> apart) {
+  double sum = 0.0, pieces = 0.0;
+  for (std::size_t i = 0; i < SlopesAlong::count; ++i) {
+    if (is_apart(i, apart)) continue;
+    const Slopes& stretch = slopes.stretches[i];
+    sum += stretch.pieces * std::clamp(stretch.likeness(), -1.0, 1.0);
+    pieces += stretch.pieces;
+  }
+  return sum / std::max(1.0, pieces);
+}
+
 }  // namespace
 
 Witness strongest_witness(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
@@ -41,7 +61,7 @@ Witness strongest_witness(const PreparedScan& target, const PreparedScan& source
     const Pose moved = Eigen::Translation3d(shift_m * axis) * target_from_source;
     SlopesAlong slopes = slopes_along(of_target, of_source, moved, axis, near_m, enough_slopes);
     for (std::size_t i = 0; i < SlopesAlong::count; ++i)
-      if (is_in(SlopesAlong::begin_m(i) + 0.5 * SlopesAlong::length_m, apart)) slopes.stretches[i] = {};
+      if (is_apart(i, apart)) slopes.stretches[i] = {};
     return slopes;
   };
   const SlopesAlong here = slopes_at(0.0);
@@ -59,6 +79,32 @@ Witness strongest_witness(const PreparedScan& target, const PreparedScan& source
   witness.share = here.of(first, many).common / std::max(here.all().common, 1e-9);
   witness.borne_out = of_rest(here) - beside >= least_likeness;
   return witness;
+}
+
+double likelier_shift_m(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                        const Eigen::Vector3d& axis, double from_m, double to_m, std::span<const Stretch> apart,
+                        Progress& progress) {
+  constexpr double step_m = 0.1, wide_m = 0.05, same_place_m = 0.15;
+  constexpr double least = 0.1, clearly = 2.0;  // times as alike
+  constexpr std::size_t enough_pieces = 6000;
+  const double size_m = piece_of(target, source);
+  const SurfaceMap& of_target = target.surface(size_m);
+  const SurfaceMap& of_source = source.surface(size_m);
+  const auto votes_for = [&](double shift_m) {
+    progress.check();
+    const Pose moved = Eigen::Translation3d(shift_m * axis) * target_from_source;
+    return votes(slopes_along(of_target, of_source, moved, axis, wide_m, enough_pieces), apart);
+  };
+  std::vector<double> all;
+  double best_m = 0.0, most = 0.0;
+  for (double shift_m = from_m; shift_m <= to_m; shift_m += step_m) {
+    all.push_back(votes_for(shift_m));
+    if (std::abs(shift_m) > same_place_m && all.back() > most) best_m = shift_m, most = all.back();
+  }
+  if (all.empty()) return 0.0;
+  const double anywhere = std::max(0.0, median(all));  // bends and grade
+  const double here = std::max(0.0, votes_for(0.0) - anywhere);
+  return most - anywhere >= std::max(least, clearly * here) ? best_m : 0.0;
 }
 
 }  // namespace adit

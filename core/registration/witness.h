@@ -22,4 +22,11 @@ Witness strongest_witness(const PreparedScan& target, const PreparedScan& source
                           const Eigen::Vector3d& axis, double near_m, std::span<const Stretch> apart,
                           Progress& progress);
 
+/// How far on along the axis clearly more of what stands outside some stretches is alike than here, by length and not
+/// by how much it tells: what moved stands in few places, and tells most. 0: nowhere. Looks every 0.1 m from one shift
+/// to another.
+double likelier_shift_m(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                        const Eigen::Vector3d& axis, double from_m, double to_m, std::span<const Stretch> apart,
+                        Progress& progress);
+
 }  // namespace adit

@@ -168,11 +168,12 @@ TEST(ScanPairs, WhatAPairShowsMustLieOnTheSameSurfaces) {
   EXPECT_FALSE(lies(0.44, 0.0, 0.0018, 0.0021));
 }
 
-/// Two scans between which the face went on.
-TwoScans scans_before_a_face(double roughness_m, double went_on_m) {
+/// Two scans between which the face went on, and the machine before it as far.
+TwoScans scans_before_a_face(double roughness_m, double went_on_m, bool machine = false) {
   Progress progress;
   const auto prepared = [&](const Pose& pose, std::uint64_t seed, double face_m) {
-    const tests::RibbedTunnel tunnel{.rib_m = 0.0, .roughness_m = roughness_m, .face_m = face_m};
+    const tests::RibbedTunnel tunnel{
+        .rib_m = 0.0, .roughness_m = roughness_m, .face_m = face_m, .machine_m = machine ? face_m - 4.0 : 1e9};
     return prepare_scan("scan", CloudTiles(tunnel.scan(pose, 150000, seed)), 0.1, 0.6, 45.0, progress);
   };
   return {prepared(first, 1, 15.0), prepared(second, 2, 15.0 + went_on_m)};
@@ -202,6 +203,19 @@ TEST(LoneWitnessSlow, RoughWallsBearTheFaceOutOrContradictIt) {
     EXPECT_NEAR(moved.pair.moved_m, -went_on_m, 0.003);
     EXPECT_LT(std::abs(moved.error_m.x()), 4.0 * moved.pair.sigma.along_m) << went_on_m;
     EXPECT_LT(moved.error_m.norm(), 0.003);
+  }
+}
+
+TEST(LoneWitnessSlow, ThingsThatMovedTogetherDoNotOutvoteTheRock) {
+  for (const double roughness_m : {0.01, 0.03}) {
+    const Matched same = matched(scans_before_a_face(roughness_m, 0.0, true), 0.1);
+    EXPECT_TRUE(same.pair.moved.empty());
+    EXPECT_LT(same.error_m.norm(), 0.001);
+    const Matched moved = matched(scans_before_a_face(roughness_m, 0.3, true), 0.1);
+    const auto& unknown = moved.pair.undetermined;
+    const bool held = std::find(unknown.begin(), unknown.end(), "along") != unknown.end();
+    EXPECT_TRUE(held || std::abs(moved.error_m.x()) < 4.0 * moved.pair.sigma.along_m)
+        << roughness_m << " " << moved.error_m.x() << " " << moved.pair.sigma.along_m;
   }
 }
 

@@ -22,6 +22,7 @@ struct RibbedTunnel {
   double roughness_m = 0.0;  ///< one sigma, in lumps of half a metre
   double bend_per_m = 0.0;   ///< curvature of the axis
   double face_m = 1e9;       ///< where it ends
+  double machine_m = 1e9;    ///< the middle of a block of 3 x 2 x 2 m that stands on the floor, to the left
   Random random{77};
 
   double lumps(double u, double v) const {
@@ -61,7 +62,8 @@ struct RibbedTunnel {
     const double in_period = p.x() - period_m * std::floor(p.x() / period_m);
     const double radius = in_period < width_m ? 4.0 - rib_m : 4.0;
     const double rough = roughness_m > 0.0 ? roughness_m * lumps(p.x(), 4.0 * std::atan2(p.z(), p.y())) : 0.0;
-    return p.x() > face_m || p.z() < -2.5 || std::hypot(p.y(), p.z()) > radius + rough;
+    const bool machine = std::abs(p.x() - machine_m) < 1.5 && p.y() > 0.5 && p.y() < 2.5 && p.z() < -0.5;
+    return machine || p.x() > face_m || p.z() < -2.5 || std::hypot(p.y(), p.z()) > radius + rough;
   }
 
   /// Pulses evenly over the sphere, ranges to 20 m with 3 mm noise; scan frame.
