@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/design/transition_curve.h"
 #include "core/foundation/angle.h"
 #include "io/text_place.h"
 
@@ -64,17 +65,23 @@ void read_curve(const LandXmlNode& node, LandXmlElement& element) {
   arc.length_m = radius * sweep;
 }
 
-void require_clothoid(const LandXmlNode& node, const std::string& name) {
+/// The transition of a spiType, in either spelling of the schema; the reversed ones follow the same laws.
+HorizontalKind transition(const LandXmlNode& node, const std::string& name) {
   std::string type = node.text("spiType");
   for (char& c : type) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (type == "clothoid") return;
+  if (type == "clothoid") return HorizontalKind::clothoid;
+  if (type == "bloss" || type == "revbloss") return HorizontalKind::bloss;
+  if (type == "cosine" || type == "revcosine") return HorizontalKind::cosine;
+  if (type == "sinusoid" || type == "revsinusoid") return HorizontalKind::sinusoid;
+  if (type == "biquadratic" || type == "revbiquadratic") return HorizontalKind::biquadratic;
+  if (type == "cubic" || type == "cubicparabola") return HorizontalKind::cubic_parabola;
   node.fail(name + " is of type \"" + node.text("spiType") + "\", which is not supported",
-            "have it written as clothoids or as short lines and arcs by whoever made the design");
+            "have it written as clothoids, Bloss, cosine, sinusoid or cubic curves by whoever made the design");
 }
 
 /// Direction at the start from Start and PI; from the chord where PI is absent or of no use.
 double spiral_azimuth(const LandXmlNode& node, HorizontalElement spiral, const Eigen::Vector2d& end) {
-  const double turn = 0.5 * spiral.length_m * (spiral.start_curvature_per_m + spiral.end_curvature_per_m);
+  const double turn = element_point(spiral, spiral.length_m).azimuth_rad - spiral.azimuth_rad;
   const auto pi_point = node.optional_point_m("PI");
   constexpr double largest_turn = 0.95 * pi;  // beyond half a turn the tangents meet behind the start
   constexpr double shortest_tangent_m = 0.01;
@@ -86,18 +93,44 @@ double spiral_azimuth(const LandXmlNode& node, HorizontalElement spiral, const E
   return azimuth(end - spiral.start) - azimuth(chord);
 }
 
+/// Programs write y = x^3 / (6 R X), / (6 R L), or such that the radius is met exactly. Between a straight and a curve
+/// its points tell which one: y'' at the curved end is 6 y / x^2. The length along it follows.
+void fit_parabola(const LandXmlNode& node, LandXmlElement& element) {
+  constexpr double most_off = 0.005;  // of the curvature
+  HorizontalElement& spiral = element.geometry;
+  const bool from_straight = spiral.start_curvature_per_m == 0.0, to_straight = spiral.end_curvature_per_m == 0.0;
+  const auto corner = node.optional_point_m("PI");
+  if (from_straight == to_straight || !corner) return;
+  const Eigen::Vector2d straight_end = from_straight ? spiral.start : element.stated_end;
+  const Eigen::Vector2d curved_end = from_straight ? element.stated_end : spiral.start;
+  const Eigen::Vector2d ahead = (*corner - straight_end).normalized();
+  const Eigen::Vector2d chord = curved_end - straight_end;
+  const double x = chord.dot(ahead);
+  const double y = chord.x() * ahead.y() - chord.y() * ahead.x();  // to the right
+  double& curvature = from_straight ? spiral.end_curvature_per_m : spiral.start_curvature_per_m;
+  const double fitted = std::copysign(6.0 * y / (x * x), curvature);
+  const double length_m = parabola_length_m(x, fitted);
+  const double true_share = std::pow(1.0 + 0.25 * fitted * fitted * x * x, -1.5);
+  const auto is_stated = [&](double meant) { return std::abs(meant - curvature) <= most_off * std::abs(curvature); };
+  if (!(x > 0.0) || !(is_stated(fitted) || is_stated(fitted * length_m / x) || is_stated(fitted * true_share)))
+    node.fail(spiral.name + ": its points are not those of a cubic parabola of its radius",
+              "correct radius and points, or have it written as another transition");
+  curvature = fitted;
+  spiral.length_m = length_m;
+}
+
 void read_spiral(const LandXmlNode& node, LandXmlElement& element) {
   HorizontalElement& spiral = element.geometry;
-  require_clothoid(node, spiral.name);
+  spiral.kind = transition(node, spiral.name);
   const double sense = turning_sense(node, spiral.name);
   const double k0 = node.curvature_per_m("radiusStart");
   const double k1 = node.curvature_per_m("radiusEnd");
   if (k0 * k1 < 0.0) node.fail(spiral.name + ": its radii differ in sign", "split it where it is straight");
-  spiral.kind = HorizontalKind::clothoid;
   spiral.length_m = node.length_m("length");
   if (spiral.length_m <= 0.0) node.fail(spiral.name + " has no length", "remove it or give its length");
   spiral.start_curvature_per_m = sense * std::abs(k0);
   spiral.end_curvature_per_m = sense * std::abs(k1);
+  if (spiral.kind == HorizontalKind::cubic_parabola) fit_parabola(node, element);
   spiral.azimuth_rad = spiral_azimuth(node, spiral, element.stated_end);
 
   const auto gap = [&](const HorizontalElement& e) {

@@ -44,33 +44,34 @@ HorizontalKind kind_of(const HorizontalElement& element) {
     throw Error(element.name + " changes its turning sense, which LandXML cannot say", {},
                 "split it where it is straight");
   }
-  if (k0 != k1) return HorizontalKind::clothoid;
+  if (k0 != k1) return element.kind;
   return k0 == 0.0 ? HorizontalKind::line : HorizontalKind::arc;
 }
 
 void add_element(pugi::xml_node geometry, const HorizontalElement& element, double chainage_m) {
-  static constexpr const char* names[] = {"Line", "Curve", "Spiral"};
+  static constexpr const char* types[] = {"", "", "clothoid", "bloss", "cosine", "sinusoid", "biquadratic", "cubic"};
   const HorizontalKind kind = kind_of(element);
+  const bool straight = kind == HorizontalKind::line, arc = kind == HorizontalKind::arc;
   const PlanPoint end = element_point(element, element.length_m);
-  pugi::xml_node node = geometry.append_child(names[static_cast<int>(kind)]);
+  pugi::xml_node node = geometry.append_child(straight ? "Line" : arc ? "Curve" : "Spiral");
   set(node, "length", digits(element.length_m));
   set(node, "staStart", digits(chainage_m));
   const double k0 = element.start_curvature_per_m;
   const double k1 = element.end_curvature_per_m;
-  if (kind != HorizontalKind::line) set(node, "rot", k0 + k1 > 0.0 ? "cw" : "ccw");
-  if (kind == HorizontalKind::arc) {
+  if (!straight) set(node, "rot", k0 + k1 > 0.0 ? "cw" : "ccw");
+  if (arc) {
     set(node, "crvType", "arc");
     set(node, "radius", radius(k0));
-  } else if (kind == HorizontalKind::clothoid) {
-    set(node, "spiType", "clothoid");
+  } else if (!straight) {
+    set(node, "spiType", types[static_cast<int>(kind)]);
     set(node, "radiusStart", radius(k0));
     set(node, "radiusEnd", radius(k1));
   }
   add_point(node, "Start", element.start);
-  if (kind == HorizontalKind::arc) {
+  if (arc) {
     add_point(node, "Center", element.start + element_point(element, 0.0).right() / k0);
   }
-  if (kind == HorizontalKind::clothoid) add_point(node, "PI", intersection(element, end));
+  if (!straight && !arc) add_point(node, "PI", intersection(element, end));
   add_point(node, "End", end.position);
 }
 

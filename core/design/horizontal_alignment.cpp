@@ -1,7 +1,6 @@
 #include "core/design/horizontal_alignment.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/foundation/angle.h"
@@ -13,93 +12,36 @@ namespace {
 
 constexpr double longest_stretch_m = 1.0;
 constexpr double widest_stretch_rad = 0.1;
-constexpr double widest_panel_rad = 0.3;
 constexpr double end_tolerance_m = 1e-3;
-constexpr double tightest_curvature_per_m = 2.0;
 constexpr double longest_axis_m = 1e6;  // keeps a wrong unit from taking all memory
-
-Eigen::Vector2d direction(double azimuth_rad) {
-  return {std::sin(azimuth_rad), std::cos(azimuth_rad)};
-}
 
 std::string metres(double value) {
   return short_number(std::round(value * 1000.0) / 1000.0);
 }
 
-double sine_over(double a) {
-  return std::abs(a) < 1e-4 ? 1.0 - a * a / 6.0 : std::sin(a) / a;
-}
-
-double curvature_rate(const HorizontalElement& element) {
-  return (element.end_curvature_per_m - element.start_curvature_per_m) / element.length_m;
-}
-
-double strongest_curvature(const HorizontalElement& element) {
-  return std::max(std::abs(element.start_curvature_per_m), std::abs(element.end_curvature_per_m));
-}
-
-/// Integral of the unit tangent over [from, to] of an element by eight Gauss-Legendre points; a panel of 0.3 rad leaves
-/// an error far below rounding.
-Eigen::Vector2d panel_integral(const HorizontalElement& element, double rate, double from_m, double to_m) {
-  constexpr std::array<double, 4> node{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
-  constexpr std::array<double, 4> weight{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                         0.1012285362903763};
-  const double middle = 0.5 * (from_m + to_m);
-  const double half = 0.5 * (to_m - from_m);
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < node.size(); ++i) {
-    for (const double t : {middle - half * node[i], middle + half * node[i]}) {
-      sum += weight[i] * direction(element.azimuth_rad + t * (element.start_curvature_per_m + 0.5 * rate * t));
-    }
+/// The axis from a place on: curvature as a parabola through its values at both ends and in the middle of the stretch.
+PlanKnot knot_of(const HorizontalElement& element, double along_m, double length_m) {
+  const PlanPoint point = element_point(element, along_m);
+  PlanKnot knot;
+  knot.length_m = length_m;
+  knot.position = point.position;
+  knot.tangent = point.tangent();
+  knot.curvature_per_m = point.curvature_per_m;
+  knot.azimuth_rad = point.azimuth_rad;
+  const double change = element.end_curvature_per_m - element.start_curvature_per_m;
+  if (element.kind == HorizontalKind::clothoid || change == 0.0) {
+    knot.curvature_rate_per_m2 = change / element.length_m;
+    return knot;
   }
-  return half * sum;
-}
-
-/// From the element's start to the place `along_m` behind it [m].
-Eigen::Vector2d chord(const HorizontalElement& element, double along_m) {
-  const double rate = curvature_rate(element);
-  if (rate == 0.0) {
-    const double half_turn = 0.5 * element.start_curvature_per_m * along_m;
-    return along_m * sine_over(half_turn) * direction(element.azimuth_rad + half_turn);
-  }
-  const double turn = std::abs(along_m) * strongest_curvature(element);
-  const int panels = std::max(1, static_cast<int>(std::ceil(turn / widest_panel_rad)));
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (int i = 0; i < panels; ++i) {
-    sum += panel_integral(element, rate, along_m * i / panels, along_m * (i + 1) / panels);
-  }
-  return sum;
-}
-
-void check(const HorizontalElement& element, std::size_t i) {
-  const std::string name = element.name.empty() ? "element " + std::to_string(i + 1) : element.name;
-  const bool finite = element.start.allFinite() && std::isfinite(element.azimuth_rad) &&
-                      std::isfinite(element.length_m) && std::isfinite(element.start_curvature_per_m) &&
-                      std::isfinite(element.end_curvature_per_m);
-  if (!finite) throw Error(name + " holds a number that is not finite");
-  if (strongest_curvature(element) > tightest_curvature_per_m) {
-    throw Error(name + " has a radius under " + short_number(1.0 / tightest_curvature_per_m) + " m", {},
-                "check its radius and unit");
-  }
-  if (element.length_m <= 0.0) throw Error(name + " has no length", {}, "leave elements of no length out");
+  const double begin = point.curvature_per_m;
+  const double middle = element_point(element, along_m + 0.5 * length_m).curvature_per_m;
+  const double end = element_point(element, along_m + length_m).curvature_per_m;
+  knot.curvature_rate_per_m2 = (4.0 * middle - 3.0 * begin - end) / length_m;
+  knot.curvature_bend_per_m3 = 4.0 * (begin - 2.0 * middle + end) / (length_m * length_m);
+  return knot;
 }
 
 }  // namespace
-
-Eigen::Vector2d PlanPoint::tangent() const {
-  return direction(azimuth_rad);
-}
-
-Eigen::Vector2d PlanPoint::right() const {
-  return {std::cos(azimuth_rad), -std::sin(azimuth_rad)};
-}
-
-PlanPoint element_point(const HorizontalElement& element, double along_m) {
-  const double rate = curvature_rate(element);
-  return {element.start + chord(element, along_m),
-          element.azimuth_rad + along_m * (element.start_curvature_per_m + 0.5 * rate * along_m),
-          element.start_curvature_per_m + rate * along_m};
-}
 
 HorizontalAlignment::HorizontalAlignment(std::vector<HorizontalElement> elements, double start_chainage_m)
     : elements_(std::move(elements)), start_chainage_m_(start_chainage_m) {
@@ -108,7 +50,7 @@ HorizontalAlignment::HorizontalAlignment(std::vector<HorizontalElement> elements
     throw Error("the start chainage of the plan axis is not finite", {}, "write it in metres");
   double length = 0.0;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
-    check(elements_[i], i);
+    check_element(elements_[i], i);
     length += elements_[i].length_m;
   }
   if (length > longest_axis_m) throw Error("the plan axis is longer than 1000 km", {}, "check the unit of its lengths");
@@ -122,14 +64,15 @@ void HorizontalAlignment::lay_knots() {
     const HorizontalElement& element = elements_[e];
     const double stretch =
         std::min(longest_stretch_m, widest_stretch_rad / std::max(strongest_curvature(element), 1e-12));
-    const auto n = static_cast<std::size_t>(std::ceil(element.length_m / stretch));
+    auto n = static_cast<std::size_t>(std::ceil(element.length_m / stretch));
+    if (element.kind == HorizontalKind::biquadratic) n += n % 2;  // its curvature has a corner in the middle
     const double step = element.length_m / static_cast<double>(n);
     first_knot_of_element_.push_back(knots_.size());
     for (std::size_t i = 0; i < n; ++i) {
       const double along = step * static_cast<double>(i);
-      const PlanPoint point = element_point(element, along);
-      knots_.push_back({element_start + along, step, point.position, point.tangent(), point.curvature_per_m,
-                        curvature_rate(element), point.azimuth_rad, e});
+      knots_.push_back(knot_of(element, along, step));
+      knots_.back().chainage_m = element_start + along;
+      knots_.back().element = e;
     }
     element_start += element.length_m;
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Plan geometry of an axis: lines, arcs and clothoids, both ways.
+// Plan geometry of an axis: lines, arcs and transition curves, both ways.
 
 #include <Eigen/Core>
 
@@ -7,44 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "core/design/horizontal_element.h"
 #include "core/design/plan_knot.h"
 
 namespace adit {
-
-enum class HorizontalKind { line, arc, clothoid };
-
-/// One element: curvature is linear in length, from start_curvature to end_curvature (right-hand turns positive; both
-/// zero for a line, equal for an arc). Azimuth clockwise from north.
-struct HorizontalElement {
-  HorizontalKind kind = HorizontalKind::line;
-  std::string name;                                 ///< for messages: "Spiral 3", "Curve K12"
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< east, north [m]
-  double azimuth_rad = 0.0;                         ///< direction at start
-  double length_m = 0.0;
-  double start_curvature_per_m = 0.0;
-  double end_curvature_per_m = 0.0;
-};
-
-/// Plan position on the axis.
-struct PlanPoint {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< east, north [m]
-  double azimuth_rad = 0.0;                            ///< clockwise from north
-  double curvature_per_m = 0.0;                        ///< right-hand turns positive
-
-  Eigen::Vector2d tangent() const;  ///< unit (east, north) up-chainage
-  Eigen::Vector2d right() const;    ///< unit, a quarter turn clockwise from the tangent
-};
 
 /// Foot of a point on the axis.
 struct PlanFoot {
   double chainage_m = 0.0;
   double offset_m = 0.0;  ///< right positive
 };
-
-/// Position and direction along an element, from its own start: lines and arcs in closed form, clothoids by
-/// Gauss-Legendre integration, exact to 1e-11 m on elements of up to several kilometres (beside the rounding of large
-/// coordinates).
-PlanPoint element_point(const HorizontalElement& element, double along_m);
 
 /// How an axis turns within a stretch.
 struct AxisBend {

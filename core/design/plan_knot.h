@@ -16,6 +16,7 @@ struct PlanKnot {
   Eigen::Vector2d tangent = Eigen::Vector2d::UnitY();  ///< unit, up-chainage
   double curvature_per_m = 0.0;                        ///< right-hand turns positive
   double curvature_rate_per_m2 = 0.0;
+  double curvature_bend_per_m3 = 0.0;  ///< its second derivative
   double azimuth_rad = 0.0;
   std::size_t element = 0;
 
@@ -39,8 +40,12 @@ struct PlanKnot {
   View view(const Eigen::Vector2d& point, double t_m) const;
 
   /// Turn since the knot [rad].
-  double turn_rad(double t_m) const { return t_m * (curvature_per_m + 0.5 * curvature_rate_per_m2 * t_m); }
-  double curvature_at(double t_m) const { return curvature_per_m + curvature_rate_per_m2 * t_m; }
+  double turn_rad(double t_m) const {
+    return t_m * (curvature_per_m + t_m * (0.5 * curvature_rate_per_m2 + (1.0 / 6.0) * curvature_bend_per_m3 * t_m));
+  }
+  double curvature_at(double t_m) const {
+    return curvature_per_m + t_m * (curvature_rate_per_m2 + 0.5 * curvature_bend_per_m3 * t_m);
+  }
   Eigen::Vector2d right() const { return {tangent.y(), -tangent.x()}; }
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
@@ -89,6 +90,115 @@ TEST(PlanElement, ClothoidFromAStraightIsTheFresnelSeries) {
   EXPECT_NEAR(end.position.x(), 120.0 * east, 1e-11);
   EXPECT_NEAR(end.position.y(), 120.0 * north, 1e-11);
   EXPECT_NEAR(end.azimuth_rad, theta, 1e-15);
+}
+
+/// The law of each transition, from its definition and independent of the code, on [0, 1].
+double share_of_change(HorizontalKind kind, double u) {
+  if (kind == HorizontalKind::bloss) return 3 * u * u - 2 * u * u * u;
+  if (kind == HorizontalKind::cosine) return (1 - std::cos(pi * u)) / 2;
+  if (kind == HorizontalKind::sinusoid) return u - std::sin(2 * pi * u) / (2 * pi);
+  if (kind == HorizontalKind::biquadratic) return u < 0.5 ? 2 * u * u : 1 - 2 * (1 - u) * (1 - u);
+  return u;
+}
+
+/// Steps of 5 mm by the midpoint rule.
+PlanPoint walked(const HorizontalElement& e) {
+  const int n = static_cast<int>(e.length_m / 0.005);
+  const double h = e.length_m / n;
+  const auto curvature = [&](double u) {
+    return e.start_curvature_per_m + (e.end_curvature_per_m - e.start_curvature_per_m) * share_of_change(e.kind, u);
+  };
+  PlanPoint at{e.start, e.azimuth_rad, e.end_curvature_per_m};
+  for (int i = 0; i < n; ++i) {
+    const double before = at.azimuth_rad;
+    at.azimuth_rad += h * curvature((i + 0.5) / n);
+    at.position +=
+        h * Eigen::Vector2d(std::sin(0.5 * (before + at.azimuth_rad)), std::cos(0.5 * (before + at.azimuth_rad)));
+  }
+  return at;
+}
+
+constexpr HorizontalKind transitions[] = {HorizontalKind::clothoid, HorizontalKind::bloss, HorizontalKind::cosine,
+                                          HorizontalKind::sinusoid, HorizontalKind::biquadratic};
+
+TEST(PlanElement, EveryTransitionFollowsItsLawBetweenAnyCurvatures) {
+  for (const HorizontalKind kind : transitions)
+    for (const auto& [k0, k1] : {std::pair{0.0, 1.0 / 300}, {1.0 / 40, 0.0}, {-1.0 / 500, -1.0 / 80}, {-0.01, 0.02}}) {
+      HorizontalElement e = element(90.0, k0, k1);
+      e.kind = kind;
+      const PlanPoint end = element_point(e, e.length_m), truth = walked(e);
+      EXPECT_LT((end.position - truth.position).norm(), 1e-6) << static_cast<int>(kind);
+      EXPECT_NEAR(end.azimuth_rad, truth.azimuth_rad, 1e-9);
+      EXPECT_NEAR(end.azimuth_rad, e.azimuth_rad + 45.0 * (k0 + k1), 1e-12);  // all are symmetric
+      EXPECT_NEAR(end.curvature_per_m, k1, 1e-15);
+      EXPECT_NEAR(element_point(e, 0.0).curvature_per_m, k0, 1e-15);
+    }
+}
+
+TEST(PlanElement, CubicParabolaIsOne) {
+  // From the straight to x = 80 m with y'' = 1/200 there: C = 16000 m2, y = x^3 / 96000.
+  const double x1 = 80.0, c = 16000.0;
+  double length = 0.0;
+  for (int i = 0; i < 100000; ++i) {
+    const double x = x1 * (i + 0.5) / 100000;
+    length += x1 / 100000 * std::hypot(1.0, x * x / (2 * c));
+  }
+  HorizontalElement e = element(length, 0.0, 1.0 / 200);
+  e.kind = HorizontalKind::cubic_parabola;
+  e.start.setZero();
+  e.azimuth_rad = 0.0;
+  const PlanPoint end = element_point(e, length);
+  EXPECT_NEAR(end.position.y(), x1, 1e-8);
+  EXPECT_NEAR(end.position.x(), x1 * x1 * x1 / (6 * c), 1e-8);
+  EXPECT_NEAR(std::tan(end.azimuth_rad), x1 * x1 / (2 * c), 1e-10);
+  EXPECT_NEAR(end.curvature_per_m, 1.0 / 200 / std::pow(1 + 0.04, 1.5), 1e-12);
+  // Its second half by itself, and backwards.
+  const PlanPoint half = element_point(e, 0.5 * length);
+  HorizontalElement rest = e;
+  rest.start = half.position;
+  rest.azimuth_rad = half.azimuth_rad;
+  rest.length_m = 0.5 * length;
+  rest.start_curvature_per_m = half.position.y() / c;
+  EXPECT_LT((element_point(rest, rest.length_m).position - end.position).norm(), 1e-8);
+  HorizontalElement back = e;
+  back.start_curvature_per_m = -e.end_curvature_per_m;
+  back.end_curvature_per_m = 0.0;
+  back.start = end.position;
+  back.azimuth_rad = end.azimuth_rad + pi;
+  EXPECT_LT(element_point(back, length).position.norm(), 1e-8);
+}
+
+TEST(PlanElement, ACubicParabolaThatGrowsFlatterAgainIsRefused) {
+  HorizontalElement e = element(100.0, 0.0, 1.0 / 100);
+  e.kind = HorizontalKind::cubic_parabola;
+  EXPECT_THROW(HorizontalAlignment({e}, 0.0), Error);
+  e.start_curvature_per_m = e.end_curvature_per_m;
+  EXPECT_THROW(HorizontalAlignment({e}, 0.0), Error);
+}
+
+TEST(PlanAxis, TransitionsBetweenKnotsAndThereAndBack) {
+  for (const HorizontalKind kind : {HorizontalKind::bloss, HorizontalKind::cosine, HorizontalKind::sinusoid,
+                                    HorizontalKind::biquadratic, HorizontalKind::cubic_parabola}) {
+    HorizontalElement e = element(61.3, 0.0, -1.0 / 120);
+    e.kind = kind;
+    const HorizontalAlignment axis({e}, 10.0);
+    for (double along = 0.0; along < e.length_m; along += 0.29) {
+      const PlanPoint truth = element_point(e, along);
+      const PlanPoint point = axis.at(10.0 + along);
+      EXPECT_LT((point.position - truth.position).norm(), 1e-7) << static_cast<int>(kind) << " " << along;
+      EXPECT_NEAR(point.azimuth_rad, truth.azimuth_rad, 1e-6);
+      for (const double x : {-30.0, 4.0}) {
+        const auto foot = axis.foot(truth.position + x * truth.right());
+        ASSERT_TRUE(foot.has_value());
+        EXPECT_NEAR(foot->chainage_m, 10.0 + along, 1e-6);
+        EXPECT_NEAR(foot->offset_m, x, 1e-6);
+        const auto back = axis.foot(axis.to_plan(*foot));  // by itself it is exact
+        ASSERT_TRUE(back.has_value());
+        EXPECT_NEAR(back->chainage_m, foot->chainage_m, 1e-9);
+        EXPECT_NEAR(back->offset_m, foot->offset_m, 1e-9);
+      }
+    }
+  }
 }
 
 TEST(PlanElement, RightHandArcTurnsClockwise) {

@@ -74,8 +74,9 @@ TEST_F(LandXml, AnArcOfMoreThanHalfACircleAndAFullOne) {
 }
 
 /// A clothoid as an element of a file, placed by our own integration, INF in the spelling given.
-std::string spiral(double k0, double k1, const std::string& inf, const std::string& type = "clothoid") {
-  const HorizontalElement e{HorizontalKind::clothoid, "", {500, 700}, 0.3, 60, k0, k1};
+std::string spiral(double k0, double k1, const std::string& inf, const std::string& type = "clothoid",
+                   HorizontalKind kind = HorizontalKind::clothoid) {
+  const HorizontalElement e{kind, "", {500, 700}, 0.3, 60, k0, k1};
   const PlanPoint end = element_point(e, 60);
   const Eigen::Vector2d chord = end.position - e.start;
   const Eigen::Vector2d t0(std::sin(0.3), std::cos(0.3)), t1 = end.tangent();
@@ -113,8 +114,46 @@ TEST_F(LandXml, ASpiralWithoutPiTakesItsDirectionFromTheChord) {
 }
 
 TEST_F(LandXml, OtherSpiralTypesAreRefusedByNameAndLine) {
-  expect_words(refusal(landxml(alignment(first_line + "\n" + spiral(0.0, 0.01, "INF", "bloss")))),
-               {"axis.xml:7", "Spiral 2", "\"bloss\"", "not supported"});
+  expect_words(refusal(landxml(alignment(first_line + "\n" + spiral(0.0, 0.01, "INF", "radioid")))),
+               {"axis.xml:7", "Spiral 2", "\"radioid\"", "not supported"});
+}
+
+TEST_F(LandXml, EveryTransitionThatIsHonouredIsReadByItsName) {
+  for (const auto& [name, kind] : {std::pair{"bloss", HorizontalKind::bloss},
+                                   {"revBloss", HorizontalKind::bloss},
+                                   {"cosine", HorizontalKind::cosine},
+                                   {"Sinusoid", HorizontalKind::sinusoid},
+                                   {"biquadratic", HorizontalKind::biquadratic}}) {
+    for (const auto& [k0, k1] : {std::pair{0.0, 0.01}, {-0.01, 0.0}, {0.004, 0.02}}) {
+      const LandXmlFile file = read(landxml(alignment(spiral(k0, k1, "INF", name, kind))));
+      ASSERT_TRUE(file.alignments[0].axis.has_value()) << file.alignments[0].refusal->what();
+      EXPECT_TRUE(file.alignments[0].findings.empty()) << name << file.alignments[0].findings[0].words;
+      EXPECT_EQ(file.alignments[0].axis->horizontal().elements()[0].kind, kind);
+      EXPECT_NEAR(file.alignments[0].axis->horizontal().elements()[0].azimuth_rad, 0.3, 1e-9);
+    }
+    const LandXmlFile other = read(landxml(alignment(spiral(0.0, 0.02, "INF", "clothoid", kind))));
+    EXPECT_FALSE(other.alignments[0].axis && other.alignments[0].findings.empty()) << name;  // another curve: it shows
+  }
+}
+
+TEST_F(LandXml, ACubicParabolaByWhicheverRadiusItsWriterMeant) {
+  // x = 80, y = x^3 / 96000: y'' = 1/200 at the end, the true radius there is 200 * 1.04^1.5.
+  const char* format =
+      "<Spiral length=\"80.318\" radiusStart=\"INF\" radiusEnd=\"%.4f\" rot=\"cw\" spiType=\"cubic\">"
+      "<Start>0 0</Start><PI>%.9f 0</PI><End>80 %.9f</End></Spiral>";
+  const double y = 80.0 * 80.0 * 80.0 / 96000.0;
+  char text[400];
+  for (const double radius : {200.0, 200.0 * std::pow(1.04, 1.5), 199.6}) {
+    std::snprintf(text, sizeof text, format, radius, 80.0 - y / 0.2, y);
+    const Alignment axis = chosen(landxml(alignment(text)));
+    const HorizontalAlignment& plan = axis.horizontal();
+    EXPECT_NEAR(plan.to_m(), 80.31825, 0.00001) << radius;
+    EXPECT_NEAR(plan.at(plan.to_m()).position.x(), y, 1e-6);
+    EXPECT_NEAR(plan.at(plan.to_m()).position.y(), 80.0, 1e-6);
+    EXPECT_NEAR(plan.at(plan.to_m()).azimuth_rad, std::atan(0.2), 1e-7);
+  }
+  std::snprintf(text, sizeof text, format, 260.0, 80.0 - y / 0.2, y);
+  expect_words(refusal(landxml(alignment(text))), {"Spiral 1", "cubic parabola"});
 }
 
 TEST_F(LandXml, GeometryThatIsNotReadIsRefusedTheRestIsListed) {
@@ -268,12 +307,15 @@ TEST_F(LandXml, WhatIsWrittenIsReadBackToAMicrometre) {
   std::vector<HorizontalElement> elements;
   double k = 0.0;
   PlanPoint at{{2683026.06027, 1251466.93025}, 5.4, 0};
-  for (const double next : {0.0, 1 / 300.0, 1 / 300.0, 1 / 120.0, 0.0, -1 / 80.0, -1 / 80.0, -1 / 5000.0}) {
-    const HorizontalElement e{HorizontalKind::clothoid, "", at.position, at.azimuth_rad, 47.25, k, next};
+  constexpr HorizontalKind kinds[] = {HorizontalKind::bloss, HorizontalKind::cosine, HorizontalKind::sinusoid,
+                                      HorizontalKind::biquadratic, HorizontalKind::clothoid};
+  for (const double next : {0.0, 1 / 300.0, 1 / 300.0, 1 / 120.0, 0.0, -1 / 80.0, -1 / 80.0, 0.0}) {
+    const HorizontalElement e{kinds[elements.size() % 5], "", at.position, at.azimuth_rad, 47.25, k, next};
     at = element_point(e, e.length_m);
     elements.push_back(e);
     k = next;
   }
+  elements.push_back({HorizontalKind::cubic_parabola, "", at.position, at.azimuth_rad, 47.25, 0.0, 1 / 200.0});
   const VerticalAlignment vertical({{1500, 400, VerticalCurveKind::none, 0, 0},
                                     {1600, 404, VerticalCurveKind::parabola, 60, 0},
                                     {1700, 402, VerticalCurveKind::circle, 0, 900},
