@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "app/scan_places.h"
 #include "core/foundation/error.h"
@@ -147,11 +148,37 @@ void check_targets(const JobState& state) {
   }
 }
 
+/// Control that lies a long way from all poses of the job: another grid, another unit, or exchanged columns.
+void check_control_near_scans(const JobState& state) {
+  constexpr double farthest_m = 1000.0;
+  const auto nearest_m = [&](bool exchanged) {
+    double nearest = std::numeric_limits<double>::max();
+    for (const JobScan& scan : state.job.scans)
+      for (const ControlPoint& point : state.control) {
+        if (!scan.position) continue;
+        const Eigen::Vector2d plan = point.position.head<2>();
+        const Eigen::Vector2d place = exchanged ? Eigen::Vector2d(plan.y(), plan.x()) : plan;
+        nearest = std::min(nearest, (place - scan.position->head<2>()).norm());
+      }
+    return nearest;
+  };
+  const bool any_pose =
+      std::any_of(state.job.scans.begin(), state.job.scans.end(), [](const JobScan& scan) { return scan.position; });
+  if (state.control.empty() || !any_pose || nearest_m(false) <= farthest_m) return;
+  char words[100];
+  std::snprintf(words, sizeof words, "the control points lie %.1f km from the poses of the scans",
+                nearest_m(false) / 1000.0);
+  throw Error(words, (state.folder / state.job.control).string(),
+              nearest_m(true) <= farthest_m ? "east and north seem to be exchanged, here or in the poses"
+                                            : "write both in one grid and in metres");
+}
+
 }  // namespace
 
 void check_job(const JobState& state) {
   check_design(state);
   check_targets(state);
+  check_control_near_scans(state);
 }
 
 }  // namespace adit::app

@@ -34,7 +34,8 @@ void add_registration(std::string& text, const Results& results) {
   }
   for (const PairResult& pair : registration.pairs) {
     add(text, "  pair %s - %s: overlap %.0f %%", pair.source.c_str(), pair.target.c_str(), 100.0 * pair.overlap);
-    if (std::isfinite(pair.median_m) && std::isfinite(pair.median_distance_m))
+    const bool meets = pair.median_m > 0.0;  // some surfaces, somewhere
+    if (meets && std::isfinite(pair.median_m) && std::isfinite(pair.median_distance_m))
       add(text, ", median residual %.1f mm, median distance %.1f mm", 1e3 * pair.median_m,
           1e3 * pair.median_distance_m);
     text += pair.used ? "\n" : " (not used: " + pair.why_not + ")\n";

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "app/placed_tiles.h"
 #include "app/scan_places.h"
 #include "app/step.h"
 #include "core/foundation/error.h"
@@ -19,7 +20,7 @@ bool wanted(const JobState&) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "register 7|" + state.keys.at("import");
+  std::string text = "register 8|" + state.keys.at("import");
   for (const JobScan& scan : state.job.scans) {
     if (!scan.position) continue;
     for (const double value : {scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,
@@ -37,7 +38,7 @@ std::string depends_on(const JobState& state) {
 std::optional<Pose> site_from_file_guess(const JobScan& scan, const io::PointStore& store) {
   if (scan.position) return make_pose(*scan.position, scan.angles);
   if (store.file_pose()) return store.file_pose();
-  if (!store.offset().isZero()) return Pose::Identity();
+  if (!scanner_at_origin(store)) return Pose::Identity();
   return std::nullopt;
 }
 
@@ -46,7 +47,7 @@ ScanToPlace scan_to_place(const JobState& state, std::size_t index) {
   ScanToPlace scan;
   scan.name = state.job.scans[index].name;
   scan.points = store;
-  scan.scanner_at_origin = store->offset().isZero();
+  scan.scanner_at_origin = scanner_at_origin(*store);
   if (auto guess = site_from_file_guess(state.job.scans[index], *store)) {
     guess->translation() += guess->linear() * store->offset() - state.results.import.origin.position;
     scan.local_from_scan_guess = guess;

@@ -68,18 +68,21 @@ std::vector<GraphControl> control_of(const std::string& scan, const Registration
   return control;
 }
 
-std::vector<PreparedScan> prepare_scans(const std::vector<ScanToPlace>& scans, const RegistrationOptions& options,
-                                        Progress& progress) {
+PreparedScans prepare_scans(const std::vector<ScanToPlace>& scans, const RegistrationOptions& options,
+                            Findings& findings, Progress& progress) {
   std::vector<Progress> parts;
   for (const ScanToPlace& scan : scans)
     parts.push_back(progress.part(1.0 / static_cast<double>(scans.size()), "preparing scan " + scan.name));
   std::vector<PreparedScan> prepared(scans.size());
+  std::vector<std::optional<Error>> too_few(scans.size());
   std::vector<std::exception_ptr> failed(scans.size());
   const auto prepare = [&](std::size_t i) {
     const bool limited = scans[i].scanner_at_origin;
     try {
       prepared[i] = prepare_scan(scans[i].name, *scans[i].points, options.spacing_m, limited ? least_range_m : 0.0,
                                  limited ? most_range_m : 1e9, parts[i]);
+    } catch (const Error& error) {
+      too_few[i] = error;
     } catch (...) {
       failed[i] = std::current_exception();
     }
@@ -87,32 +90,44 @@ std::vector<PreparedScan> prepare_scans(const std::vector<ScanToPlace>& scans, c
   parallel_for_each_index(scans.size(), prepare, 1);
   for (const std::exception_ptr& error : failed)
     if (error) std::rethrow_exception(error);  // the first in the order of the job, whichever failed first
-  return prepared;
+  PreparedScans usable;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (too_few[i]) {
+      findings.push_back(
+          {Severity::decision, too_few[i]->where(), "not placed: " + too_few[i]->what_is_wrong(), too_few[i]->mend()});
+      continue;
+    }
+    usable.scans.push_back(std::move(prepared[i]));
+    usable.of.push_back(i);
+  }
+  if (usable.scans.empty()) throw *too_few.front();
+  return usable;
 }
 
-std::vector<Node> starting_nodes(const std::vector<ScanToPlace>& scans, const std::vector<PreparedScan>& prepared,
+std::vector<Node> starting_nodes(const std::vector<ScanToPlace>& scans, const PreparedScans& prepared,
                                  const RegistrationContext& context, const RegistrationOptions& options,
                                  Findings& findings, Progress& progress) {
   std::vector<std::optional<Node>> known;
   std::vector<std::optional<Pose>> poses;
-  for (const ScanToPlace& scan : scans) {
-    known.push_back(known_node(scan, control_of(scan.name, context)));
+  for (const std::size_t i : prepared.of) {
+    known.push_back(known_node(scans[i], control_of(scans[i].name, context)));
     poses.push_back(known.back() ? std::optional<Pose>(known.back()->start) : std::nullopt);
   }
-  const std::vector<StartingPlace> places = place_scans(prepared, poses, options, progress);
+  const std::vector<StartingPlace> places = place_scans(prepared.scans, poses, options, progress);
   std::vector<Node> nodes;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
+  for (std::size_t i = 0; i < prepared.scans.size(); ++i) {
+    const std::string& name = scans[prepared.of[i]].name;
     if (!places[i].local_from_scan) {
-      findings.push_back({Severity::decision, "scan " + scans[i].name,
+      findings.push_back({Severity::decision, "scan " + name,
                           "not placed: it has no guess and too few targets, and " + places[i].why_not,
                           "give it a pose in job.json, survey three targets, or scan from a station between"});
       continue;
     }
     Node node = known[i].value_or(Node{});
-    node.scan = i;
-    node.prepared = &prepared[i];
+    node.scan = prepared.of[i];
+    node.prepared = &prepared.scans[i];
     node.start = *places[i].local_from_scan;
-    node.control = control_of(scans[i].name, context);
+    node.control = control_of(name, context);
     nodes.push_back(node);
   }
   return nodes;

@@ -25,13 +25,19 @@ void check_targets(const std::vector<ScanToPlace>& scans, const RegistrationCont
 /// The targets of a scan with their control points; the node is 0.
 std::vector<GraphControl> control_of(const std::string& scan, const RegistrationContext& context);
 
-/// Prepares all scans; the order of the result is theirs.
-std::vector<PreparedScan> prepare_scans(const std::vector<ScanToPlace>& scans, const RegistrationOptions& options,
-                                        Progress& progress);
+/// Those scans of the caller's that have enough points, in their order.
+struct PreparedScans {
+  std::vector<PreparedScan> scans;
+  std::vector<std::size_t> of;  ///< indices into the caller's
+};
+
+/// Prepares all scans. A finding names each that has too few points; throws Error when all have.
+PreparedScans prepare_scans(const std::vector<ScanToPlace>& scans, const RegistrationOptions& options,
+                            Findings& findings, Progress& progress);
 
 /// Those scans that can start: at their guess, by their control, or where the search finds them. A finding names each
 /// that cannot.
-std::vector<Node> starting_nodes(const std::vector<ScanToPlace>& scans, const std::vector<PreparedScan>& prepared,
+std::vector<Node> starting_nodes(const std::vector<ScanToPlace>& scans, const PreparedScans& prepared,
                                  const RegistrationContext& context, const RegistrationOptions& options,
                                  Findings& findings, Progress& progress);
 

@@ -31,8 +31,10 @@ struct PoseGraph {
   std::vector<Pose> local_from_scan;  ///< starting values
   std::vector<GraphPair> pairs;
   std::vector<GraphControl> control;
-  std::optional<std::size_t> datum;  ///< this node does not move; needed when there is no control
-  std::vector<bool> guessed;         ///< nodes held, loosely, at their starting value; those beyond its end are, too
+  /// This node does not move; needed when there is no control. Its own guess is off, too: the others are held at theirs
+  /// but for a move of all together, as much as one guess may be off.
+  std::optional<std::size_t> datum;
+  std::vector<bool> guessed;  ///< nodes held, loosely, at their starting value; those beyond its end are, too
   double guess_sigma_m = 0.5;
   double guess_sigma_rad = 0.035;
   double control_sigma_m = 0.002;
@@ -45,9 +47,12 @@ struct PoseGraphResult {
   double cost = 0.0;                 ///< half the sum of squares that was minimised, after the robust losses
   std::vector<double> pair_misfit;   ///< squared residual of each pair in its own sigmas (6 are expected)
   std::vector<Eigen::Vector3d> control_residual_m;
+  Pose moved_from_guesses = Pose::Identity();  ///< what all guesses move by to stand about the datum; without it none
 };
 
-/// Least squares with Cauchy's loss on the pairs, so that a wrong pair does not pull the rest (Ceres). Deterministic.
+/// Least squares with Cauchy's loss on the pairs, so that a wrong pair does not pull the rest (Ceres). Such a loss has
+/// more than one minimum: it begins at the starting values and, once more, where the best known pairs chain the nodes
+/// from the datum on; the less costly of both is the result. Deterministic.
 PoseGraphResult solve_pose_graph(const PoseGraph& graph, Progress& progress);
 
 }  // namespace adit

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -68,6 +69,30 @@ struct GuessCost {
   }
 };
 
+/// A guess that moves with all others, about the datum.
+struct MovingGuessCost {
+  Pose start;
+  Eigen::Vector3d pivot;
+  double sigma_rad, sigma_m;
+  template <typename T>
+  bool operator()(const T* node, const T* move, T* residual) const {
+    T q[4];
+    ceres::AngleAxisToQuaternion(move, q);
+    const Eigen::Quaternion<T> turn(q[0], q[1], q[2], q[3]);
+    ceres::AngleAxisToQuaternion(node, q);
+    const Eigen::Matrix<T, 3, 1> left =
+        rotation_vector_of<T>(Eigen::Quaternion<T>(q[0], q[1], q[2], q[3]) * turn.conjugate());
+    const Eigen::Matrix<T, 3, 1> guess = turn * Eigen::Vector3d(start.translation() - pivot).cast<T>() +
+                                         pivot.cast<T>() + Eigen::Matrix<T, 3, 1>(move[3], move[4], move[5]);
+    const Eigen::Matrix<T, 3, 1> off = moved(node, start) - guess;
+    for (int i = 0; i < 3; ++i) {
+      residual[i] = left[i] / sigma_rad;
+      residual[i + 3] = off[i] / sigma_m;
+    }
+    return true;
+  }
+};
+
 struct ControlCost {
   Pose start;
   Eigen::Vector3d in_scan, in_local;
@@ -100,21 +125,32 @@ class CancelCheck : public ceres::IterationCallback {
 
 struct Problem {
   std::vector<Block> blocks;
+  Block move{};  ///< of all guesses, about the datum
   ceres::Problem ceres;
   std::vector<PairCost> pairs;
 };
 
+void add_guess(Problem& problem, const PoseGraph& graph, std::size_t node) {
+  constexpr double hardly = 100.0;  // a node that nobody guessed is held by this much less, for the equations' sake
+  const double looser = node < graph.guessed.size() && !graph.guessed[node] ? hardly : 1.0;
+  const double sigma_rad = looser * graph.guess_sigma_rad, sigma_m = looser * graph.guess_sigma_m;
+  double* const block = problem.blocks[node].data();
+  if (!graph.datum || graph.datum == node) {
+    problem.ceres.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<GuessCost, 6, 6>(new GuessCost{sigma_rad, sigma_m}), nullptr,
+        graph.datum ? problem.move.data() : block);  // what the datum's guess is off is how far all others move
+    return;
+  }
+  problem.ceres.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<MovingGuessCost, 6, 6, 6>(new MovingGuessCost{
+          graph.local_from_scan[node], graph.local_from_scan[*graph.datum].translation(), sigma_rad, sigma_m}),
+      nullptr, block, problem.move.data());
+}
+
 void build(Problem& problem, const PoseGraph& graph) {
   problem.blocks.assign(graph.local_from_scan.size(), Block{});
-  constexpr double hardly = 100.0;  // a node that nobody guessed is held by this much less, for the equations' sake
-  for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
-    auto& block = problem.blocks[i];
-    const double looser = i < graph.guessed.size() && !graph.guessed[i] ? hardly : 1.0;
-    problem.ceres.AddParameterBlock(block.data(), 6);
-    problem.ceres.AddResidualBlock(new ceres::AutoDiffCostFunction<GuessCost, 6, 6>(
-                                       new GuessCost{looser * graph.guess_sigma_rad, looser * graph.guess_sigma_m}),
-                                   nullptr, block.data());
-  }
+  for (auto& block : problem.blocks) problem.ceres.AddParameterBlock(block.data(), 6);
+  for (std::size_t i = 0; i < problem.blocks.size(); ++i) add_guess(problem, graph, i);
   for (const GraphPair& pair : graph.pairs) {
     const PairCost cost{graph.local_from_scan[pair.target], graph.local_from_scan[pair.source], pair.target_from_source,
                         square_root(pair.information)};
@@ -162,11 +198,8 @@ std::vector<Matrix6d> covariances(Problem& problem, const PoseGraph& graph) {
   return result;
 }
 
-}  // namespace
-
-PoseGraphResult solve_pose_graph(const PoseGraph& graph, Progress& progress) {
-  Problem problem;
-  build(problem, graph);
+/// Minimises from where the blocks stand; the cost.
+double minimised(Problem& problem, Progress& progress) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 200;
@@ -181,7 +214,59 @@ PoseGraphResult solve_pose_graph(const PoseGraph& graph, Progress& progress) {
   if (!summary.IsSolutionUsable())
     throw Error("the adjustment of the scans did not converge: " + summary.message, {},
                 "check poses and control points for contradictions");
+  return summary.final_cost;
+}
 
+/// Where the best known pairs put the nodes, from the datum (or the node with most control) on; what none reaches
+/// stays.
+std::vector<Pose> chain_of(const PoseGraph& graph) {
+  const std::size_t nodes = graph.local_from_scan.size();
+  std::vector<std::size_t> controls(nodes, 0);
+  for (const GraphControl& c : graph.control) ++controls[c.node];
+  const auto most = std::max_element(controls.begin(), controls.end()) - controls.begin();
+  std::vector<Pose> poses = graph.local_from_scan;
+  std::vector<bool> reached(nodes, false);
+  reached[graph.datum.value_or(static_cast<std::size_t>(most))] = true;
+  std::vector<double> known;  // by the weakest direction
+  for (const GraphPair& pair : graph.pairs)
+    known.push_back(
+        Eigen::SelfAdjointEigenSolver<Matrix6d>(pair.information, Eigen::EigenvaluesOnly).eigenvalues().minCoeff());
+  for (;;) {
+    const GraphPair* next = nullptr;
+    double best = -1.0;
+    for (std::size_t k = 0; k < graph.pairs.size(); ++k) {
+      const GraphPair& pair = graph.pairs[k];
+      if (reached[pair.source] == reached[pair.target] || known[k] <= best) continue;
+      next = &pair;
+      best = known[k];
+    }
+    if (next == nullptr) return poses;
+    if (reached[next->target])
+      poses[next->source] = poses[next->target] * next->target_from_source;
+    else
+      poses[next->target] = poses[next->source] * next->target_from_source.inverse();
+    reached[next->source] = reached[next->target] = true;
+  }
+}
+
+void begin_at(Problem& problem, const PoseGraph& graph, const std::vector<Pose>& poses) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (graph.datum == i) continue;
+    const Pose& start = graph.local_from_scan[i];
+    Eigen::Map<Vector6d> block(problem.blocks[i].data());
+    block << rotation_vector(poses[i].linear() * start.linear().transpose()),
+        poses[i].translation() - start.translation();
+  }
+}
+
+Pose moved_by(const Block& move, const Eigen::Vector3d& pivot) {
+  Pose pose = Pose::Identity();
+  pose.linear() = rotation_from_vector(Eigen::Vector3d(move.data()));
+  pose.translation() = pivot - pose.linear() * pivot + Eigen::Vector3d(move.data() + 3);
+  return pose;
+}
+
+PoseGraphResult result_of(const Problem& problem, const PoseGraph& graph) {
   PoseGraphResult result;
   for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
     Pose pose = Pose::Identity();
@@ -197,8 +282,28 @@ PoseGraphResult solve_pose_graph(const PoseGraph& graph, Progress& progress) {
   }
   for (const GraphControl& c : graph.control)
     result.control_residual_m.emplace_back(result.local_from_scan[c.node] * c.in_scan - c.in_local);
-  result.cost = summary.final_cost;
-  if (graph.with_covariance) result.covariance = covariances(problem, graph);
+  if (graph.datum)
+    result.moved_from_guesses = moved_by(problem.move, graph.local_from_scan[*graph.datum].translation());
+  return result;
+}
+
+}  // namespace
+
+PoseGraphResult solve_pose_graph(const PoseGraph& graph, Progress& progress) {
+  Problem at_start, chained;
+  build(at_start, graph);
+  double cost = minimised(at_start, progress);
+  Problem* best = &at_start;
+  if (!graph.pairs.empty()) {
+    build(chained, graph);
+    begin_at(chained, graph, chain_of(graph));
+    const double other = minimised(chained, progress);
+    constexpr double clearly = 1e-6;  // of the cost: mostly both end at one place
+    if (other < cost * (1.0 - clearly)) best = &chained, cost = other;
+  }
+  PoseGraphResult result = result_of(*best, graph);
+  result.cost = cost;
+  if (graph.with_covariance) result.covariance = covariances(*best, graph);
   return result;
 }
 

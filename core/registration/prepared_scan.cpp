@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/foundation/error.h"
+#include "core/foundation/options.h"
 #include "core/geometry/cell_sums.h"
 #include "core/geometry/statistics.h"
 
@@ -15,6 +16,7 @@ namespace adit {
 namespace {
 
 constexpr std::size_t enough_points = 20000;
+constexpr std::size_t least_points = 500;
 constexpr double coarsest_cell_m = 10.0;  // as far as options.registration.cell_m goes
 constexpr double unlimited_range_m = 1e8;
 constexpr std::size_t piece_sizes = 4;
@@ -39,6 +41,23 @@ double mean_points(const std::vector<CellSums>& sums) {
   double all = 0.0;
   for (const CellSums& cell : sums) all += cell.points;
   return all / static_cast<double>(std::max<std::size_t>(1, sums.size()));
+}
+
+/// Why too little of a scan is left.
+Error too_few_points(const std::string& name, const TileSource& source, const PreparedScan& scan, double least_range_m,
+                     double most_range_m) {
+  const std::string where = "scan " + name;
+  const std::uint64_t all = total_points(source);
+  if (all < least_points)
+    return Error("it has only " + std::to_string(all) + " points; " + std::to_string(least_points) + " are needed",
+                 where, "name the file of a whole scan");
+  std::string range;
+  if (most_range_m < unlimited_range_m)
+    range = " between " + short_number(least_range_m) + " and " + short_number(most_range_m) + " m from the scanner";
+  return Error("of its " + std::to_string(all) + " points only " + std::to_string(scan.points.size()) +
+                   " places remain" + range + ", one each " + short_number(scan.spacing_m) + " m",
+               where,
+               "check that its file is in metres and that its origin is the scanner, or lower registration.spacing_m");
 }
 
 }  // namespace
@@ -67,10 +86,7 @@ PreparedScan prepare_scan(const std::string& name, const TileSource& source, dou
     scan.spacing_m *= 0.5;
     sums = summed();
   }
-  if (scan.points.size() < 500)
-    throw Error("only " + std::to_string(scan.points.size()) + " places remain of this scan at a spacing of " +
-                    std::to_string(spacing_m) + " m",
-                "scan " + name, "check the units of the file (metres are needed) or lower registration.spacing_m");
+  if (scan.points.size() < least_points) throw too_few_points(name, source, scan, least_range_m, most_range_m);
   scan.pyramid = distribution_pyramid(sums, scan.spacing_m, coarsest_cell_m, {});
   const std::span<const DistributionMap> planes(scan.pyramid.levels);
   for (std::size_t size = 0; size < piece_sizes; ++size) {

@@ -7,6 +7,7 @@
 
 #include "core/foundation/angle.h"
 #include "core/registration/adjustment.h"
+#include "core/registration/control_findings.h"
 #include "core/registration/joint_refinement.h"
 #include "core/registration/loops.h"
 #include "core/registration/observability.h"
@@ -61,6 +62,24 @@ std::vector<bool> tied_nodes(const std::vector<Node>& nodes, const std::vector<C
   return tied;
 }
 
+/// Of each node the first one that used pairs tie it to, by whichever way.
+std::vector<std::size_t> groups_of(std::size_t nodes, const std::vector<Candidate>& candidates,
+                                   const std::vector<PairResult>& pairs) {
+  std::vector<std::size_t> group(nodes);
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      std::size_t& a = group[candidates[k].source];
+      std::size_t& b = group[candidates[k].target];
+      if (!pairs[k].used || a == b) continue;
+      a = b = std::min(a, b);
+      changed = true;
+    }
+  }
+  return group;
+}
+
 std::string how_placed(const Node& node, bool has_pairs, bool is_datum) {
   const bool control = !node.control.empty();
   if (has_pairs && control) return "clouds and control";
@@ -80,7 +99,8 @@ PoseSigma no_more_than_unknown(const PoseSigma& sigma) {
 void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
                  const PoseGraph& graph, const PoseGraphResult& solved, const RegistrationContext& context,
                  const RegistrationOptions& options) {
-  const auto tied = tied_nodes(nodes, candidates, result.pairs, graph.datum);
+  report_untied(result, nodes, tied_nodes(nodes, candidates, result.pairs, graph.datum),
+                groups_of(nodes.size(), candidates, result.pairs));
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     PlacedScan& scan = result.scans[nodes[i].scan];
     bool has_pairs = false, knows_all = true;
@@ -96,16 +116,10 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
         no_more_than_unknown(sigma_in_axes(result.sigma_factor * result.sigma_factor * solved.covariance[i],
                                            tunnel_axes(axis_at(context, nodes[i], solved.local_from_scan[i]))));
     scan.placed_by = how_placed(nodes[i], has_pairs, graph.datum == i);
-    if (!tied[i]) {
-      result.findings.push_back({Severity::decision, "scan " + scan.name,
-                                 std::string("no pair and no control ties it to the other scans") +
-                                     (nodes[i].by == Node::By::guess ? "; it stands at its guess" : ""),
-                                 "check its guess and registration.pair_distance_m and least_overlap, or survey three "
-                                 "targets"});
-    }
+    if (graph.datum == i) compare_datum_with_guesses(scan, solved.moved_from_guesses, options, result.findings);
     const bool guessed = nodes[i].by == Node::By::guess && !(has_pairs && knows_all);
     name_undetermined(scan, guessed, options, result.findings);
-    compare_with_guess(scan, nodes[i], options, result.findings);
+    if (graph.datum != i) compare_with_guess(scan, nodes[i], solved.moved_from_guesses, options, result.findings);
   }
 }
 
@@ -213,7 +227,7 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
     result.scans.back().placed_by = "not placed";
   }
   Progress preparing = progress.part(0.2, "preparing scans");
-  const std::vector<PreparedScan> prepared = prepare_scans(scans, options, preparing);
+  const PreparedScans prepared = prepare_scans(scans, options, result.findings, preparing);
   Progress placing = progress.part(0.4, "placing scans");
   std::vector<Node> nodes = starting_nodes(scans, prepared, known, options, result.findings, placing);
   result.in_site = stand_in_site(nodes);

@@ -6,26 +6,11 @@
 #include <set>
 
 #include "core/foundation/angle.h"
-#include "core/geometry/pose_step.h"
-#include "core/geometry/statistics.h"
 #include "core/registration/fit_check.h"
 #include "core/registration/scan_pairs.h"
 
 namespace adit {
 namespace {
-
-constexpr double huber_sigmas = 4.0;  // as in the adjustment
-
-/// What of a target's errors shows in its residual: I - w J C J^T / sigma^2 with the weight w that Huber's loss left
-/// it.
-Eigen::Vector3d redundancy_of(const Pose& local_from_scan, const Matrix6d& covariance, const Eigen::Vector3d& in_scan,
-                              double residual_m, double sigma_m) {
-  const double weight = std::min(1.0, huber_sigmas * sigma_m / std::max(residual_m, 1e-12));
-  Eigen::Matrix<double, 3, 6> j;
-  j << -cross_matrix(local_from_scan.linear() * in_scan), Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d taken = weight * (j * covariance * j.transpose()).diagonal() / (sigma_m * sigma_m);
-  return (Eigen::Vector3d::Ones() - taken).cwiseMax(0.0).cwiseMin(1.0);
-}
 
 constexpr double hardly_agreeing = 0.6;  // wrong places in rock that a guess bears out have up to 0.55
 
@@ -57,13 +42,16 @@ bool is_other_scale(const PairResult& pair) {
   return pair.scale_sigma > 0.0 && off > least_off && off > clear_sigmas * pair.scale_sigma;
 }
 
-/// Whether used pairs that know every direction lead from one scan to the other.
-bool are_tied(const std::vector<PairResult>& pairs, const std::string& one, const std::string& other) {
+/// Whether other used pairs that know every direction, and of which so much agrees, lead from one scan of a pair to the
+/// other.
+bool are_tied_otherwise(const std::vector<PairResult>& pairs, const PairResult& apart, double least_agreeing) {
+  const std::string& one = apart.source;
+  const std::string& other = apart.target;
   std::set<std::string> reached{one};
   for (bool grown = true; grown;) {
     grown = false;
     for (const PairResult& pair : pairs) {
-      if (!pair.used || !pair.undetermined.empty()) continue;
+      if (!pair.used || !pair.undetermined.empty() || pair.agreeing < least_agreeing || &pair == &apart) continue;
       if (reached.count(pair.source) != reached.count(pair.target)) {
         reached.insert({pair.source, pair.target});
         grown = true;
@@ -122,9 +110,9 @@ void report_pairs(RegistrationResult& result, const RegistrationOptions& options
     char words[200];
     if (!lies_well(pair) && pair.overlap >= options.least_overlap) {
       // Where other pairs tie both scans, the search alone went wrong.
-      const Severity severity = are_tied(result.pairs, pair.source, pair.target) ? Severity::note : Severity::warning;
+      const Severity severity = are_tied_otherwise(result.pairs, pair, 0.0) ? Severity::note : Severity::warning;
       result.findings.push_back({severity, subject,
-                                 "not used: it " + pair.why_not + ", so the place found is a wrong one",
+                                 "not used: it " + pair.why_not + ", so the place found is not believed",
                                  "check the poses of both scans, and whether the place was changed between them"});
     }
     if (!pair.used) continue;
@@ -133,8 +121,9 @@ void report_pairs(RegistrationResult& result, const RegistrationOptions& options
                     "only %.0f %% of what both show lies on the same surfaces: a scanner bends what it sees, something "
                     "moved, or the place is a wrong one",
                     100.0 * pair.agreeing);
-      result.findings.push_back({pair.agreeing < hardly_agreeing ? Severity::decision : Severity::warning, subject,
-                                 words, "look at the picture of their overlap, and check the poses of both"});
+      const bool alone = !are_tied_otherwise(result.pairs, pair, well_agreeing);
+      result.findings.push_back({alone && pair.agreeing < hardly_agreeing ? Severity::decision : Severity::warning,
+                                 subject, words, "look at the picture of their overlap, and check the poses of both"});
     }
     report_along(pair, subject, result.findings);
     if (is_other_scale(pair)) {
@@ -176,43 +165,6 @@ void report_contradictions(RegistrationResult& result, const Adjustment& adjustm
   }
 }
 
-void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved,
-                    const PoseGraph& graph, const std::vector<Node>& nodes, const RegistrationOptions& options) {
-  std::vector<double> components;
-  for (std::size_t k = 0; k < graph.control.size(); ++k) {
-    const GraphControl& control = graph.control[k];
-    const std::string& name = nodes[control.node].prepared->name;
-    const Eigen::Vector3d residual = solved.local_from_scan[control.node] * control.in_scan - control.in_local;
-    result.control.push_back({name, control.id, residual, adjustment.control_used[k]});
-    if (!adjustment.control_used[k]) continue;
-    for (const double component : residual) components.push_back(component);
-    ControlResidual& reported = result.control.back();
-    const Eigen::Vector3d redundancy =
-        redundancy_of(solved.local_from_scan[control.node], solved.covariance[control.node], control.in_scan,
-                      residual.norm(), options.control_sigma_m);
-    constexpr double least_redundancy = 0.01;  // of less, a residual is rounding
-    reported.redundancy = redundancy.mean();
-    const Eigen::Vector3d in_sigmas =
-        residual.array() / (options.control_sigma_m * redundancy.array().max(least_redundancy).sqrt());
-    reported.normalised = std::max(in_sigmas.cwiseAbs().maxCoeff(), 8.0 / 9.0 * in_sigmas.norm());
-    if (reported.normalised <= wrong_normalised) continue;
-    char words[200];
-    std::snprintf(words, sizeof words, "residual of %.1f mm at target %s: %.1f times what its sigma explains",
-                  1000.0 * residual.norm(), control.id.c_str(), reported.normalised);
-    result.findings.push_back({Severity::decision, "scan " + name, words, "check this target and its control point"});
-  }
-  result.control_rms_m = components.empty() ? 0.0 : root_mean_square(components);
-  // The test of the whole (Baarda 1968): what is wrong a little everywhere fails no test of one target.
-  constexpr double most_factor = 1.5;
-  if (components.empty() || result.sigma_factor <= most_factor) return;
-  char words[160];
-  std::snprintf(words, sizeof words, "control and scans contradict one another %.1f times beyond their sigmas",
-                result.sigma_factor);
-  result.findings.push_back({Severity::decision, "adjustment", words,
-                             "check the scale of the control (grid or ground distances), its points and "
-                             "registration.control_sigma_m"});
-}
-
 void name_undetermined(PlacedScan& scan, bool guessed, const RegistrationOptions& options, Findings& findings) {
   constexpr double as_a_guess = 0.5;  // of its sigma: better is told by something else
   bool held = guessed;
@@ -239,11 +191,12 @@ void name_undetermined(PlacedScan& scan, bool guessed, const RegistrationOptions
                       "survey targets for this scan or add scans between"});
 }
 
-void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,
-                        Findings& findings) {
+void compare_with_guess(const PlacedScan& scan, const Node& node, const Pose& moved_from_guesses,
+                        const RegistrationOptions& options, Findings& findings) {
   if (node.by != Node::By::guess) return;
-  const double moved_m = distance_between_m(node.start, scan.local_from_scan);
-  const double turned_deg = deg_from_rad(rotation_between_rad(node.start, scan.local_from_scan));
+  const Pose guess = moved_from_guesses * node.start;
+  const double moved_m = distance_between_m(guess, scan.local_from_scan);
+  const double turned_deg = deg_from_rad(rotation_between_rad(guess, scan.local_from_scan));
   if (moved_m <= 3.0 * options.guess_sigma_m && turned_deg <= 3.0 * options.guess_sigma_deg) return;
   char words[200];
   std::snprintf(words, sizeof words,
@@ -253,6 +206,43 @@ void compare_with_guess(const PlacedScan& scan, const Node& node, const Registra
   const Severity severity = node.control.size() >= least_targets ? Severity::warning : Severity::decision;
   findings.push_back(
       {severity, "scan " + scan.name, words, "check its pose in job.json and look at the scans from above"});
+}
+
+void compare_datum_with_guesses(const PlacedScan& datum, const Pose& moved_from_guesses,
+                                const RegistrationOptions& options, Findings& findings) {
+  const Pose asked = moved_from_guesses.inverse() * datum.local_from_scan;
+  const double moved_m = distance_between_m(asked, datum.local_from_scan);
+  const double turned_deg = deg_from_rad(rotation_between_rad(asked, datum.local_from_scan));
+  if (moved_m <= 3.0 * options.guess_sigma_m && turned_deg <= 3.0 * options.guess_sigma_deg) return;
+  char words[200];
+  std::snprintf(words, sizeof words,
+                "stands at its guess, but the guesses of the others would put it %.2f m and %.1f degrees from there",
+                moved_m, turned_deg);
+  findings.push_back(
+      {Severity::decision, "scan " + datum.name, words, "check its pose in job.json: the whole survey stands by it"});
+}
+
+void report_untied(RegistrationResult& result, const std::vector<Node>& nodes, const std::vector<bool>& tied,
+                   const std::vector<std::size_t>& group) {
+  const char* const mend =
+      "check its guess and registration.pair_distance_m and least_overlap, or survey three targets";
+  for (std::size_t first = 0; first < nodes.size(); ++first) {
+    if (tied[first] || group[first] != first) continue;
+    std::vector<std::string> names;
+    for (std::size_t i = first; i < nodes.size(); ++i)
+      if (group[i] == first) names.push_back(result.scans[nodes[i].scan].name);
+    if (names.size() > 1) {
+      result.findings.push_back({Severity::decision, "scans " + listed(names),
+                                 "pairs tie them to one another, but no pair and no control ties them to the other "
+                                 "scans: together they stand where their guesses put them",
+                                 mend});
+      continue;
+    }
+    result.findings.push_back({Severity::decision, "scan " + names.front(),
+                               std::string("no pair and no control ties it to the other scans") +
+                                   (nodes[first].by == Node::By::guess ? "; it stands at its guess" : ""),
+                               mend});
+  }
 }
 
 void report_loops(RegistrationResult& result, const RegistrationOptions& options) {
@@ -266,29 +256,6 @@ void report_loops(RegistrationResult& result, const RegistrationOptions& options
                                "look at the overlap pictures of these scans: a scanner may bend what it sees, or "
                                "something moved"});
   }
-}
-
-void compare_guesses_with_control(RegistrationResult& result, const std::vector<Node>& nodes,
-                                  const RegistrationOptions& options) {
-  std::vector<Eigen::Vector3d> moves;
-  std::size_t controlled = 0;
-  for (const Node& node : nodes) {
-    controlled += node.control.size();
-    if (node.by == Node::By::guess)
-      moves.push_back(result.scans[node.scan].local_from_scan.translation() - node.start.translation());
-  }
-  if (controlled == 0 || moves.size() < 2) return;
-  Eigen::Vector3d common = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& move : moves) common += move / static_cast<double>(moves.size());
-  const double loose_m = 3.0 * options.guess_sigma_m;
-  const auto differs = [&](const Eigen::Vector3d& move) { return (move - common).norm() > loose_m; };
-  if (common.norm() <= loose_m || std::any_of(moves.begin(), moves.end(), differs)) return;
-  char words[160];
-  std::snprintf(words, sizeof words,
-                "all %zu scans with a guess stand %.1f m from it, one way: control and guesses are not of one place",
-                moves.size(), common.norm());
-  result.findings.push_back(
-      {Severity::decision, "control", words, "check the coordinates in the control file and the poses in job.json"});
 }
 
 void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, const RegistrationContext& context,

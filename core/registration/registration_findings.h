@@ -14,25 +14,26 @@ void report_pairs(RegistrationResult& result, const RegistrationOptions& options
 void report_contradictions(RegistrationResult& result, const Adjustment& adjustment, const PoseGraph& graph,
                            const std::vector<Node>& nodes);
 
-/// Residuals of control with their redundancy; those that fail the blunder test (wrong_normalised) as
-/// findings.
-void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved,
-                    const PoseGraph& graph, const std::vector<Node>& nodes, const RegistrationOptions& options);
-
 /// Directions of a scan whose sigma is too great to be called known. guessed: "held" is said of what is
 /// no better known than a guess.
 void name_undetermined(PlacedScan& scan, bool held, const RegistrationOptions& options, Findings& findings);
 
-/// A scan that ended far from its guess: the guess was wrong, or the match is.
-void compare_with_guess(const PlacedScan& scan, const Node& node, const RegistrationOptions& options,
-                        Findings& findings);
+/// A scan that ended far from its guess, all guesses being moved as the datum asks: the guess was wrong, or the match
+/// is.
+void compare_with_guess(const PlacedScan& scan, const Node& node, const Pose& moved_from_guesses,
+                        const RegistrationOptions& options, Findings& findings);
+
+/// The datum stands at its guess: how far from it the guesses of all others, and the clouds between, would put it.
+void compare_datum_with_guesses(const PlacedScan& datum, const Pose& moved_from_guesses,
+                                const RegistrationOptions& options, Findings& findings);
 
 /// Loops that pairs which know every direction leave open by more than a direction may be unknown.
 void report_loops(RegistrationResult& result, const RegistrationOptions& options);
 
-/// Control that no guess agrees with: one mistake moves everything, and nothing within the survey contradicts it.
-void compare_guesses_with_control(RegistrationResult& result, const std::vector<Node>& nodes,
-                                  const RegistrationOptions& options);
+/// Scans that neither pairs nor control tie to the datum: each alone, or those that pairs tie to one another as a
+/// group. tied, group: of each node; a group is known by its first node.
+void report_untied(RegistrationResult& result, const std::vector<Node>& nodes, const std::vector<bool>& tied,
+                   const std::vector<std::size_t>& group);
 
 /// With fewer than three targets in all the place of the whole survey is only as good as the guess of its datum scan,
 /// and so is every number against a design.

@@ -34,6 +34,12 @@ bool is_apart(std::size_t stretch, std::span<const Stretch> apart) {
   return is_in(SlopesAlong::begin_m(stretch) + 0.5 * SlopesAlong::length_m, apart);
 }
 
+SlopesAlong outside(std::span<const Stretch> apart, SlopesAlong slopes) {
+  for (std::size_t i = 0; i < SlopesAlong::count; ++i)
+    if (is_apart(i, apart)) slopes.stretches[i] = {};
+  return slopes;
+}
+
 /// How alike the stretches are, each by itself and weighed by its pieces: a machine or a face slopes more than all of
 /// the rock, but stands in few of them.
 double votes(const SlopesAlong& slopes, std::span<const Stretch> apart) {
@@ -49,31 +55,33 @@ double votes(const SlopesAlong& slopes, std::span<const Stretch> apart) {
 
 }  // namespace
 
-Witness strongest_witness(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
-                          const Eigen::Vector3d& axis, double near_m, std::span<const Stretch> apart,
-                          Progress& progress) {
-  constexpr double longest_m = 4.0, beside_m = 0.35;
+WitnessSlopes witness_slopes(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                             const Eigen::Vector3d& axis, double near_m, Progress& progress) {
+  constexpr double beside_m = 0.35;
   const double size_m = piece_of(target, source);
   const SurfaceMap& of_target = target.surface(size_m);
   const SurfaceMap& of_source = source.surface(size_m);
   const auto slopes_at = [&](double shift_m) {
     progress.check();
     const Pose moved = Eigen::Translation3d(shift_m * axis) * target_from_source;
-    SlopesAlong slopes = slopes_along(of_target, of_source, moved, axis, near_m, enough_slopes);
-    for (std::size_t i = 0; i < SlopesAlong::count; ++i)
-      if (is_apart(i, apart)) slopes.stretches[i] = {};
-    return slopes;
+    return slopes_along(of_target, of_source, moved, axis, near_m, enough_slopes);
   };
-  const SlopesAlong here = slopes_at(0.0);
+  return {slopes_at(0.0), slopes_at(-beside_m), slopes_at(beside_m)};
+}
+
+Witness strongest_witness(const WitnessSlopes& slopes, std::span<const Stretch> apart) {
+  constexpr double longest_m = 4.0;
+  const SlopesAlong here = outside(apart, slopes.here);
   const auto longest = static_cast<std::size_t>(longest_m / SlopesAlong::length_m);
   const std::size_t many = std::clamp<std::size_t>(overlap_of(here) / 3, 1, longest);
   const std::size_t first = strongest(here, many);
-  const auto of_rest = [&](const SlopesAlong& slopes) {
-    Slopes rest = slopes.all();
-    rest -= slopes.of(first, many);
+  const auto of_rest = [&](const SlopesAlong& all) {
+    Slopes rest = all.all();
+    rest -= all.of(first, many);
     return rest.likeness();
   };
-  const double beside = std::max(0.0, 0.5 * (of_rest(slopes_at(-beside_m)) + of_rest(slopes_at(beside_m))));
+  const double beside =
+      std::max(0.0, 0.5 * (of_rest(outside(apart, slopes.before)) + of_rest(outside(apart, slopes.behind))));
   Witness witness;
   witness.stretch = {SlopesAlong::begin_m(first), SlopesAlong::begin_m(first + many)};
   witness.share = here.of(first, many).common / std::max(here.all().common, 1e-9);

@@ -140,9 +140,10 @@ void add_pairs(PageFlow& flow, const Results& results) {
               2.2};
   for (const PairResult& p : pairs)
     table.rows.push_back(
-        {p.source, p.target, percent(p.overlap), fixed(1000.0 * p.median_m, 1), fixed(1000.0 * p.rms_m, 1),
-         percent(p.within_6mm), percent(p.balance.x()) + "  " + percent(p.balance.y()) + "  " + percent(p.balance.z()),
-         percent(p.agreeing), percent(p.seen_through, 1),
+        {p.source, p.target, percent(p.overlap), p.median_m > 0.0 ? fixed(1000.0 * p.median_m, 1) : "\u2013",
+         p.rms_m > 0.0 ? fixed(1000.0 * p.rms_m, 1) : "\u2013", percent(p.within_6mm),
+         percent(p.balance.x()) + "  " + percent(p.balance.y()) + "  " + percent(p.balance.z()), percent(p.agreeing),
+         percent(p.seen_through, 1),
          p.scale_sigma > 0.0 ? with_sign(1000.0 * (p.scale - 1.0), 2) + " \xC2\xB1 " + fixed(1000.0 * p.scale_sigma, 2)
                              : "",
          std::to_string(p.iterations), p.used ? TableCell("yes") : TableCell("no", colours::red, true)});

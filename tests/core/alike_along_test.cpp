@@ -90,6 +90,21 @@ TEST(AlikeAlongSlow, RibsThatDoNotMeetAtTheGuessTellTheOtherDirectionsWhereTheyM
   EXPECT_LT(error_m.tail<2>().norm(), 0.002);
 }
 
+TEST(AlikeAlongSlow, APairThatHardlyOverlapsIsNotDrawnTogether) {
+  // 26 m apart: what the transform finds is where the scans overlap most, upon each other.
+  const tests::RibbedTunnel tunnel{.rib_m = 0.0, .roughness_m = 0.03};
+  Progress progress;
+  const Pose far = Eigen::Translation3d(18.0, 0.0, 0.0) * second;
+  const auto prepared = [&](const Pose& pose, std::uint64_t seed) {
+    return prepare_scan("scan", CloudTiles(tunnel.scan(pose, 60000, seed)), 0.1, 0.6, 45.0, progress);
+  };
+  const Pose truth = first.inverse() * far;
+  const PairResult pair = matched_pair(prepared(first, 1), prepared(far, 2), Eigen::Translation3d(0.3 * axis) * truth,
+                                       Start::guess, axis, {}, progress);
+  EXPECT_TRUE(!lies_well(pair) || pair.overlap < 0.15 || distance_between_m(pair.target_from_source, truth) < 2.0)
+      << pair.overlap << " " << pair.agreeing << " " << distance_between_m(pair.target_from_source, truth);
+}
+
 TEST(AlikeAlongSlow, RockBetweenTheRibsTells) {
   tests::RibbedTunnel tunnel;
   tunnel.roughness_m = 0.05;

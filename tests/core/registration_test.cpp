@@ -282,6 +282,33 @@ TEST(Registration, RedundanciesAreObservationsLessUnknowns) {
   }
 }
 
+TEST(Registration, WhatNothingElseChecksIsSaid) {
+  const auto warnings = [](const RegistrationResult& result) {
+    return std::count_if(result.findings.begin(), result.findings.end(), [](const Finding& f) {
+      return f.severity == Severity::warning && f.words.find("hardly anything else checks") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(warnings(with_targets(3, Eigen::Vector3d::Zero())), 1);
+  EXPECT_EQ(warnings(with_targets(6, Eigen::Vector3d::Zero())), 0);
+}
+
+TEST(Registration, AScanWithTooFewPointsIsNotPlacedAndTheRestIs) {
+  const RockTunnel rock = sample_rock();
+  const Pose first = station(rock.design(), 36.0, 10.0);
+  PointCloud few;
+  few.points.assign(50, Eigen::Vector3f(1.0F, 2.0F, 3.0F));
+  Progress progress;
+  const RegistrationResult result = register_scans(
+      {scan_to_place("few", few, first), scan_to_place("A", scan_at(rock, first, 1, 20000), first)}, {}, {}, progress);
+  EXPECT_FALSE(result.scans[0].placed);
+  EXPECT_TRUE(result.scans[1].placed);
+  EXPECT_EQ(result.datum_scan, "A");
+  EXPECT_FALSE(result.accepted);
+  ASSERT_FALSE(result.findings.empty());
+  EXPECT_EQ(result.findings[0].subject, "scan few");
+  EXPECT_NE(result.findings[0].words.find("only 50 points"), std::string::npos);
+}
+
 TEST(Registration, ATargetThatFailsTheBlunderTestIsSaid) {
   const auto decisions = [](const RegistrationResult& result) {
     return std::count_if(result.findings.begin(), result.findings.end(), [](const Finding& f) {
@@ -337,6 +364,27 @@ TEST(PoseGraph, ClosesALoopAndIgnoresAPlantedWrongPair) {
   for (std::size_t i = 0; i < truth.size(); ++i)
     EXPECT_LT(distance_between_m(planted.local_from_scan[i], clean.local_from_scan[i]), 0.001);
   EXPECT_GT(planted.pair_misfit.back(), 1000.0);
+}
+
+TEST(PoseGraph, AWrongDatumTurnsALongChainAndTearsNoPair) {
+  // 3 degrees of the datum are 6 m at the other end: guesses that are right each by itself disagree by twelve sigmas.
+  std::vector<Pose> truth;
+  for (int i = 0; i < 10; ++i) truth.push_back(make_pose({13.0 * i, 0.5 * i, 0.0}, {0.4 * i, 0.0, 0.0}));
+  PoseGraph graph;
+  graph.datum = 0;
+  graph.local_from_scan = truth;
+  const Pose wrong = off(truth[0], {0.3, -0.2, 0.1}, 3.0);
+  graph.local_from_scan[0] = wrong;
+  for (std::size_t i = 0; i + 1 < truth.size(); ++i)
+    graph.pairs.push_back({i + 1, i, truth[i].inverse() * truth[i + 1], 1e4 * tight()});
+  Progress progress;
+  const PoseGraphResult result = solve_pose_graph(graph, progress);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_LT(distance_between_m(wrong.inverse() * result.local_from_scan[i], truth[0].inverse() * truth[i]), 1e-3)
+        << i;
+  for (const double misfit : result.pair_misfit) EXPECT_LT(misfit, 1.0);
+  EXPECT_LT(distance_between_m(result.moved_from_guesses * truth[9], result.local_from_scan[9]), 0.5);
+  EXPECT_NEAR(rotation_between_rad(result.moved_from_guesses, Pose::Identity()), rad_from_deg(3.0), 0.005);
 }
 
 TEST(PoseGraph, CovarianceDoesNotDependOnTheStart) {
