@@ -74,15 +74,12 @@ PreparedScans prepare_scans(const std::vector<ScanToPlace>& scans, const Registr
   for (const ScanToPlace& scan : scans)
     parts.push_back(progress.part(1.0 / static_cast<double>(scans.size()), "preparing scan " + scan.name));
   std::vector<PreparedScan> prepared(scans.size());
-  std::vector<std::optional<Error>> too_few(scans.size());
   std::vector<std::exception_ptr> failed(scans.size());
   const auto prepare = [&](std::size_t i) {
     const bool limited = scans[i].scanner_at_origin;
     try {
       prepared[i] = prepare_scan(scans[i].name, *scans[i].points, options.spacing_m, limited ? least_range_m : 0.0,
                                  limited ? most_range_m : 1e9, parts[i]);
-    } catch (const Error& error) {
-      too_few[i] = error;
     } catch (...) {
       failed[i] = std::current_exception();
     }
@@ -92,15 +89,14 @@ PreparedScans prepare_scans(const std::vector<ScanToPlace>& scans, const Registr
     if (error) std::rethrow_exception(error);  // the first in the order of the job, whichever failed first
   PreparedScans usable;
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (too_few[i]) {
-      findings.push_back(
-          {Severity::decision, too_few[i]->where(), "not placed: " + too_few[i]->what_is_wrong(), too_few[i]->mend()});
+    if (const auto& why = prepared[i].too_few_points) {
+      findings.push_back({Severity::decision, why->where(), "not placed: " + why->what_is_wrong(), why->mend()});
       continue;
     }
     usable.scans.push_back(std::move(prepared[i]));
     usable.of.push_back(i);
   }
-  if (usable.scans.empty()) throw *too_few.front();
+  if (usable.scans.empty()) throw *prepared.front().too_few_points;
   return usable;
 }
 

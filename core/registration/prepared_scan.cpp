@@ -44,8 +44,8 @@ double mean_points(const std::vector<CellSums>& sums) {
 }
 
 /// Why too little of a scan is left.
-Error too_few_points(const std::string& name, const TileSource& source, const PreparedScan& scan, double least_range_m,
-                     double most_range_m) {
+Error why_too_few(const std::string& name, const TileSource& source, const PreparedScan& scan, double least_range_m,
+                  double most_range_m) {
   const std::string where = "scan " + name;
   const std::uint64_t all = total_points(source);
   if (all < least_points)
@@ -86,7 +86,10 @@ PreparedScan prepare_scan(const std::string& name, const TileSource& source, dou
     scan.spacing_m *= 0.5;
     sums = summed();
   }
-  if (scan.points.size() < least_points) throw too_few_points(name, source, scan, least_range_m, most_range_m);
+  if (scan.points.size() < least_points) {
+    scan.too_few_points = why_too_few(name, source, scan, least_range_m, most_range_m);
+    return scan;
+  }
   scan.pyramid = distribution_pyramid(sums, scan.spacing_m, coarsest_cell_m, {});
   const std::span<const DistributionMap> planes(scan.pyramid.levels);
   for (std::size_t size = 0; size < piece_sizes; ++size) {
