@@ -1,5 +1,7 @@
 #include "core/registration/registration.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -123,15 +125,37 @@ void place_nodes(RegistrationResult& result, const std::vector<Node>& nodes, con
   }
 }
 
+/// How many directions a pair knows to a metre or a radian: held ones are known to a hundred.
+int known_directions(const GraphPair& pair) {
+  const auto values = Eigen::SelfAdjointEigenSolver<Matrix6d>(pair.information, Eigen::EigenvaluesOnly).eigenvalues();
+  return static_cast<int>((values.array() > 1.0).count());
+}
+
+/// Observations less unknowns. A scan that nothing ties has no unknowns, one that little ties not all six: it checks
+/// nothing, and so it must not make the others look better known.
+int redundancy_of(const PoseGraph& used) {
+  int observations = 3 * static_cast<int>(used.control.size());
+  std::vector<int> of_node(used.local_from_scan.size(), 0);
+  for (const GraphPair& pair : used.pairs) {
+    const int known = known_directions(pair);
+    observations += known;
+    of_node[pair.source] += known;
+    of_node[pair.target] += known;
+  }
+  for (const GraphControl& control : used.control) of_node[control.node] += 3;
+  int unknowns = 0;
+  for (std::size_t i = 0; i < of_node.size(); ++i)
+    if (used.datum != i) unknowns += std::min(6, of_node[i]);
+  return observations - unknowns;
+}
+
 /// Root of the variance factor of what was used, each pair by itself; 1 at least, and where nothing checks anything.
 double sigma_factor_of(const PoseGraph& used, const PoseGraphResult& solved) {
   double squares = std::accumulate(solved.pair_misfit.begin(), solved.pair_misfit.end(), 0.0);
   for (const Eigen::Vector3d& residual : solved.control_residual_m)
     squares += residual.squaredNorm() / (used.control_sigma_m * used.control_sigma_m);
-  const double observations =
-      6.0 * static_cast<double>(used.pairs.size()) + 3.0 * static_cast<double>(used.control.size());
-  const double unknowns = 6.0 * static_cast<double>(used.local_from_scan.size() - (used.datum ? 1 : 0));
-  return observations > unknowns ? std::sqrt(std::max(1.0, squares / (observations - unknowns))) : 1.0;
+  const int redundancy = redundancy_of(used);
+  return redundancy > 0 ? std::sqrt(std::max(1.0, squares / redundancy)) : 1.0;
 }
 
 /// Takes over what was used: pairs into the result, and only the control that was used stays with the nodes.
