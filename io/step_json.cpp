@@ -42,7 +42,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImportedScan, name, offset, points, no_return
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ImportResult, inputs, scans, origin, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PoseSigma, along_m, across_m, up_m, roll_rad, pitch_rad, yaw_rad)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Stretch, from_m, to_m)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairResult, source, target, searched, target_from_source, overlap, rms_m, median_m,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairResult, source, target, target_from_source, overlap, rms_m, median_m,
                                    median_distance_m, within_6mm, balance, agreeing, seen_through, noise_m, scale,
                                    scale_sigma, iterations, sigma, undetermined, alike_m, moved, moved_m, lone_witness,
                                    used, why_not, information)

@@ -115,7 +115,6 @@ PairResult register_pair(const PreparedScan& target, const PreparedScan& source,
   PairResult pair;
   pair.source = source.name;
   pair.target = target.name;
-  pair.searched = start == Start::found;
   const Eigen::Matrix3d axes = tunnel_axes(axis_in_target);
   Progress transform = progress.part(0.7, "");
   Progress last = progress.part(0.3, "");

@@ -98,7 +98,6 @@ inline bool is_in(double along_m, std::span<const Stretch> stretches) {
 struct PairResult {
   std::string source;
   std::string target;
-  bool searched = false;  ///< a search found the place; no guess and no control bears it out
   Pose target_from_source = Pose::Identity();
   double overlap = 0.0;            ///< share of the source's subsample that lies within reach of the target
   double rms_m = 0.0;              ///< point-to-plane residuals in the overlap

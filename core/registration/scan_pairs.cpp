@@ -84,10 +84,7 @@ std::vector<Candidate> candidate_pairs(const std::vector<Node>& nodes, const Reg
 }
 
 bool lies_well(const PairResult& pair) {
-  // Where a search found the place no guess bears it out; right ones have up to 3.2 noises (a real room, rock less),
-  // those in rock of other walls 4.4 and more.
-  constexpr double least_worth = 0.45;
-  const double most_noises = pair.searched ? 3.8 : 5.0;
+  constexpr double least_worth = 0.45, most_noises = 5.0;
   if (pair.noise_m > 0.0 && pair.median_m > most_noises * pair.noise_m) return false;
   return FitCheck{0.0, pair.agreeing, pair.seen_through}.worth() >= least_worth;
 }
