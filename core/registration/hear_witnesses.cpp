@@ -24,8 +24,9 @@ std::optional<Elsewhere> put_by_rest(const PreparedScan& target, const PreparedS
                                      const Judged& judged, const Known& rest, const Witness& last, double share,
                                      const AlongSearch& search, const Eigen::Matrix3d& axes,
                                      const RegistrationOptions& options, Progress& progress) {
-  constexpr double least_m = 3e-4;    // of a step: less does not matter
-  constexpr double most_share = 0.5;  // of what tells "along": more of it is rock on all sides
+  constexpr double least_m = 3e-4;      // of a step: less does not matter
+  constexpr double most_reach_m = 1.5;  // farther off scans overlap less, and what is left is alike by chance
+  constexpr double most_share = 0.5;    // of what tells "along": more of it is rock on all sides
   RegistrationOptions by_surfaces = options;
   by_surfaces.refinement = Refinement::surfaces;
   const NormalEquations equations = normal_equations(outside(rest.apart, judged.matches, pose, axes),
@@ -38,8 +39,9 @@ std::optional<Elsewhere> put_by_rest(const PreparedScan& target, const PreparedS
     // Of walls that a scanner bends some are alike anywhere.
     if (check_fit(target, source, pose).agreeing < well_agreeing) return std::nullopt;
     const double guess_m = shift_along_m(pose, search.guess, search.axis);
-    shift_m = likelier_shift_m(target, source, pose, search.axis, guess_m - search.reach_m, guess_m + search.reach_m,
-                               rest.apart, progress);
+    const double reach_m = std::min(search.reach_m, most_reach_m);
+    shift_m =
+        likelier_shift_m(target, source, pose, search.axis, guess_m - reach_m, guess_m + reach_m, rest.apart, progress);
     if (shift_m == 0.0) return std::nullopt;
   }
   Elsewhere there;
