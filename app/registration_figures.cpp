@@ -1,4 +1,5 @@
 #include "app/registration_figures.h"
+#include "app/placed_tiles.h"
 
 #include <cctype>
 #include <cstring>
@@ -47,7 +48,7 @@ void clear(const fs::path& folder) {
 render::Picture distributions_picture(const JobState& state, std::size_t scan, Progress& progress) {
   const auto& options = state.job.options.profiling;
   const io::PointStore& store = *state.stores[scan];
-  const bool limited = store.offset().isZero();
+  const bool limited = scanner_at_origin(store);
   const DistributionMap cells(cell_sums(store, cell_m, limited ? options.least_range_m : 0.0,
                                         limited ? options.most_range_m : all_ranges_m, progress),
                               cell_m, {});

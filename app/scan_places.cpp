@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "app/placed_tiles.h"
 #include "core/geometry/bounding_box.h"
 
 namespace adit::app {
@@ -15,7 +16,7 @@ Eigen::Vector3d place_of(const JobState& state, std::size_t scan) {
   const io::PointStore& store = *state.stores[scan];
   const Pose& local_from_scan = state.results.registration.scans[scan].local_from_scan;
   Eigen::Vector3d in_scan = Eigen::Vector3d::Zero();
-  if (!store.offset().isZero()) {
+  if (!scanner_at_origin(store)) {
     BoundingBox box;
     for (std::size_t tile = 0; tile < store.tile_count(); ++tile) box.extend(store.box(tile));
     in_scan = box.center();

@@ -1,4 +1,5 @@
 #include "ui/overview.h"
+#include "app/placed_tiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ constexpr double eye_height_m = 1.7;
 render::SceneCloud cloud_of(const app::JobState& state, std::size_t scan, double share) {
   const io::PointStore& store = *state.stores[scan];
   const Pose& pose = state.results.registration.scans[scan].local_from_scan;
-  const bool scanner_at_origin = store.offset().isZero();
+  const bool limited = app::scanner_at_origin(store);
   const double most_range_m = state.job.options.profiling.most_range_m;
   render::SceneCloud cloud;
   cloud.name = state.job.scans[scan].name;
@@ -22,7 +23,7 @@ render::SceneCloud cloud_of(const app::JobState& state, std::size_t scan, double
   for (std::size_t tile = 0; tile < store.tile_count(); ++tile) {
     const auto prefix = static_cast<std::size_t>(std::ceil(share * static_cast<double>(store.point_count(tile))));
     for (const auto& p : store.positions(tile, prefix))
-      if (!scanner_at_origin || static_cast<double>(p.norm()) <= most_range_m)
+      if (!limited || static_cast<double>(p.norm()) <= most_range_m)
         cloud.points.push_back((pose * p.cast<double>()).cast<float>());
   }
   return cloud;

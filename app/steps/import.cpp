@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "app/file_name.h"
+#include "app/placed_tiles.h"
 #include "app/step.h"
 #include "core/foundation/error.h"
 #include "core/geometry/point_cloud.h"
@@ -223,7 +224,7 @@ void summarise(JobState& state) {
     if (store->no_returns() > 0)
       result.findings.push_back({Severity::note, "scan " + store->name(),
                                  std::to_string(store->no_returns()) + " pulses without an echo were left out", ""});
-    if (!store->offset().isZero() && !store->file_pose())
+    if (!scanner_at_origin(*store) && !store->file_pose())
       result.findings.push_back({Severity::note, "scan " + store->name(),
                                  "the file does not say where the scanner stood; ranges are not limited", ""});
   }

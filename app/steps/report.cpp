@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "app/pair_sections.h"
+#include "app/placed_tiles.h"
 #include "app/step.h"
 #include "core/foundation/error.h"
 #include "io/atomic_file.h"
@@ -48,10 +49,11 @@ render::OverviewCloud overview(const JobState& state, std::size_t scan) {
   const double share = std::min(
       1.0, static_cast<double>(overview_points) / static_cast<double>(std::max<std::uint64_t>(store.points(), 1)));
   const Pose& pose = state.results.registration.scans[scan].local_from_scan;
+  const bool limited = scanner_at_origin(store);
   for (std::size_t tile = 0; tile < store.tile_count(); ++tile) {
     const auto prefix = static_cast<std::size_t>(share * static_cast<double>(store.point_count(tile)));
     for (const auto& p : store.positions(tile, prefix))
-      if (!store.offset().isZero() || static_cast<double>(p.norm()) <= state.job.options.profiling.most_range_m)
+      if (!limited || static_cast<double>(p.norm()) <= state.job.options.profiling.most_range_m)
         cloud.points.push_back((pose * p.cast<double>()).cast<float>());
   }
   return cloud;

@@ -229,12 +229,17 @@ void report_untied(RegistrationResult& result, const std::vector<Node>& nodes, c
   for (std::size_t first = 0; first < nodes.size(); ++first) {
     if (tied[first] || group[first] != first) continue;
     std::vector<std::string> names;
-    for (std::size_t i = first; i < nodes.size(); ++i)
-      if (group[i] == first) names.push_back(result.scans[nodes[i].scan].name);
+    bool guessed = false;
+    for (std::size_t i = first; i < nodes.size(); ++i) {
+      if (group[i] != first) continue;
+      names.push_back(result.scans[nodes[i].scan].name);
+      guessed = guessed || nodes[i].by == Node::By::guess;
+    }
     if (names.size() > 1) {
       result.findings.push_back({Severity::decision, "scans " + listed(names),
                                  "pairs tie them to one another, but no pair and no control ties them to the other "
-                                 "scans: together they stand where their guesses put them",
+                                 "scans: together they stand where " +
+                                     std::string(guessed ? "their guesses put them" : "a search alone put them"),
                                  mend});
       continue;
     }

@@ -53,18 +53,23 @@ double votes(const SlopesAlong& slopes, std::span<const Stretch> apart) {
   return sum / std::max(1.0, pieces);
 }
 
+/// With the pair so far on along the axis, on the finest pieces.
+SlopesAlong slopes_farther_on(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
+                              const Eigen::Vector3d& axis, double shift_m, double near_m, std::size_t enough,
+                              Progress& progress) {
+  progress.check();
+  const double size_m = piece_of(target, source);
+  const Pose moved = Eigen::Translation3d(shift_m * axis) * target_from_source;
+  return slopes_along(target.surface(size_m), source.surface(size_m), moved, axis, near_m, enough);
+}
+
 }  // namespace
 
 WitnessSlopes witness_slopes(const PreparedScan& target, const PreparedScan& source, const Pose& target_from_source,
                              const Eigen::Vector3d& axis, double near_m, Progress& progress) {
   constexpr double beside_m = 0.35;
-  const double size_m = piece_of(target, source);
-  const SurfaceMap& of_target = target.surface(size_m);
-  const SurfaceMap& of_source = source.surface(size_m);
   const auto slopes_at = [&](double shift_m) {
-    progress.check();
-    const Pose moved = Eigen::Translation3d(shift_m * axis) * target_from_source;
-    return slopes_along(of_target, of_source, moved, axis, near_m, enough_slopes);
+    return slopes_farther_on(target, source, target_from_source, axis, shift_m, near_m, enough_slopes, progress);
   };
   return {slopes_at(0.0), slopes_at(-beside_m), slopes_at(beside_m)};
 }
@@ -95,13 +100,9 @@ double likelier_shift_m(const PreparedScan& target, const PreparedScan& source, 
   constexpr double step_m = 0.1, wide_m = 0.05, same_place_m = 0.15;
   constexpr double least = 0.1, clearly = 2.0;  // times as alike
   constexpr std::size_t enough_pieces = 6000;
-  const double size_m = piece_of(target, source);
-  const SurfaceMap& of_target = target.surface(size_m);
-  const SurfaceMap& of_source = source.surface(size_m);
   const auto votes_for = [&](double shift_m) {
-    progress.check();
-    const Pose moved = Eigen::Translation3d(shift_m * axis) * target_from_source;
-    return votes(slopes_along(of_target, of_source, moved, axis, wide_m, enough_pieces), apart);
+    return votes(slopes_farther_on(target, source, target_from_source, axis, shift_m, wide_m, enough_pieces, progress),
+                 apart);
   };
   std::vector<double> all;
   double best_m = 0.0, most = 0.0;
