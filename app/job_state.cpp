@@ -1,13 +1,15 @@
 #include "app/job_state.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/job_checks.h"
 #include "core/foundation/error.h"
+#include "core/foundation/options.h"
 #include "core/foundation/parallel.h"
-#include "io/control_csv.h"
 #include "io/job_json.h"
-#include "io/landxml.h"
+#include "io/read_axis.h"
+#include "io/read_control.h"
 #include "io/read_profile.h"
 #include "io/sha256.h"
 #include "io/targets_csv.h"
@@ -49,15 +51,37 @@ void expect_inputs_apart(const JobState& state, const std::vector<std::string>& 
   }
 }
 
+void add(const Findings& more, Findings& findings) {
+  findings.insert(findings.end(), more.begin(), more.end());
+}
+
 void read_alignment(JobState& state) {
   const Job& job = state.job;
   if (job.alignment.empty()) return;
-  const io::LandXmlFile file = io::read_landxml(state.folder / job.alignment);
+  const io::AxisFile file = io::read_axis(state.folder / job.alignment, job.alignment_start_m);
   state.alignment = io::choose_alignment(file, job.alignment_name);
-  state.input_findings.insert(state.input_findings.end(), file.findings.begin(), file.findings.end());
-  for (const auto& alignment : file.alignments)
-    if (alignment.name == state.alignment->name())
-      state.input_findings.insert(state.input_findings.end(), alignment.findings.begin(), alignment.findings.end());
+  add(file.findings, state.input_findings);
+  add(io::named_axis(file, job.alignment_name).findings, state.input_findings);
+}
+
+/// Profiles stand upright: where the axis has cant, that must not pass unseen.
+void look_at_cant(JobState& state) {
+  constexpr double reported_m = 1e-3;
+  if (!state.has_design()) return;
+  const JobChainage stretch = state.stretch();
+  const double strongest_m = state.alignment->cant().strongest_m(stretch.from_m, stretch.to_m);
+  if (strongest_m < reported_m) return;
+  state.input_findings.push_back({Severity::warning, "alignment " + state.alignment->name(),
+                                  "it has a cant of up to " + short_number(std::round(1000.0 * strongest_m)) +
+                                      " mm here; the profile is not turned with it",
+                                  "draw the profile as it is to be built"});
+}
+
+void read_control(JobState& state) {
+  if (state.job.control.empty()) return;
+  io::ControlFile file = io::read_control(state.folder / state.job.control);
+  state.control = std::move(file.points);
+  add(file.findings, state.input_findings);
 }
 
 }  // namespace
@@ -77,8 +101,9 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
   read_alignment(state);
   for (const JobProfile& profile : state.job.profiles)
     state.profiles.push_back({profile.from_m, io::read_profile(state.folder / profile.file, profile.layer)});
-  if (!state.job.control.empty()) state.control = io::read_control_csv(state.folder / state.job.control);
+  read_control(state);
   if (!state.job.targets.empty()) state.targets = io::read_targets_csv(state.folder / state.job.targets);
+  look_at_cant(state);
   check_job(state);
   const fs::path truth = state.folder / "truth.json";
   if (fs::exists(truth)) {

@@ -7,6 +7,13 @@
 #include <utility>
 
 namespace adit::io {
+
+std::vector<ProfileSegment> reversed(const std::vector<ProfileSegment>& segments) {
+  std::vector<ProfileSegment> back;
+  for (auto s = segments.rbegin(); s != segments.rend(); ++s) back.push_back({s->end, s->start, -s->bulge});
+  return back;
+}
+
 namespace {
 
 constexpr double join_m = 1e-3;
@@ -64,12 +71,6 @@ class EndGrid {
   std::map<Cell, std::vector<End>> cells_;
 };
 
-std::vector<ProfileSegment> reversed(const std::vector<ProfileSegment>& segments) {
-  std::vector<ProfileSegment> back;
-  for (auto s = segments.rbegin(); s != segments.rend(); ++s) back.push_back({s->end, s->start, -s->bulge});
-  return back;
-}
-
 bool closes(const DxfLine& line) {
   return line.segments.size() > 1 && (line.segments.back().end - line.segments.front().start).norm() <= join_m;
 }
@@ -106,12 +107,18 @@ class Chainer {
   }
 
   void walk(End entry) {
-    DxfLine chain{lines_[entry.line].layer, {}, false};
+    DxfLine chain{lines_[entry.line].layer, {}, false, {}, 0, 0};
     while (true) {
       used_[entry.line] = true;
       const auto& segments = lines_[entry.line].segments;
       const auto ordered = entry.side == 0 ? segments : reversed(segments);
       chain.segments.insert(chain.segments.end(), ordered.begin(), ordered.end());
+      std::vector<double> heights = lines_[entry.line].heights;
+      if (entry.side == 1) std::reverse(heights.begin(), heights.end());
+      const bool first = chain.heights.empty();
+      chain.heights.insert(chain.heights.end(), heights.begin() + (first || heights.empty() ? 0 : 1), heights.end());
+      ++chain.pieces;
+      chain.pieces_reversed += entry.side;
       const End* follower = next({entry.line, 1 - entry.side});
       if (follower == nullptr || used_[follower->line]) break;
       entry = *follower;

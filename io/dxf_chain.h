@@ -14,6 +14,9 @@ struct DxfChains {
   std::optional<Eigen::Vector2d> branch;  ///< a place where three or more ends meet: chains stop there
 };
 
+/// The same segments walked from the other end.
+std::vector<ProfileSegment> reversed(const std::vector<ProfileSegment>& segments);
+
 /// Chains entities (in metres) of the same layer whose ends meet within 1 mm.
 DxfChains chained(const std::vector<DxfLine>& lines);
 

@@ -14,6 +14,9 @@ struct DxfLine {
   std::string layer;
   std::vector<ProfileSegment> segments;
   bool closed = false;
+  std::vector<double> heights;  ///< z of each segment's start, and of the last one's end
+  int pieces = 1;               ///< entities it is chained of
+  int pieces_reversed = 0;      ///< of them, those that were drawn the other way
 };
 
 struct DxfDrawing {

@@ -53,17 +53,17 @@ class Collector : public DL_CreationAdapter {
   }
   void addLine(const DL_LineData& line) override {
     finish_polyline();
-    add({{{line.x1, line.y1}, {line.x2, line.y2}, 0.0}}, false);
+    add({{{line.x1, line.y1}, {line.x2, line.y2}, 0.0}}, false, {line.z1, line.z2});
   }
   void addArc(const DL_ArcData& arc) override {
     finish_polyline();
     double sweep = rad_from_deg(std::fmod(arc.angle2 - arc.angle1, 360.0));
     if (sweep <= 0.0) sweep += 2.0 * pi;
-    add_arc({arc.cx, arc.cy}, arc.radius, rad_from_deg(arc.angle1), sweep, false);
+    add_arc({arc.cx, arc.cy}, arc.radius, rad_from_deg(arc.angle1), sweep, false, arc.cz);
   }
   void addCircle(const DL_CircleData& circle) override {
     finish_polyline();
-    add_arc({circle.cx, circle.cy}, circle.radius, 0.0, 2.0 * pi, true);
+    add_arc({circle.cx, circle.cy}, circle.radius, 0.0, 2.0 * pi, true, circle.cz);
   }
   void addPolyline(const DL_PolylineData& polyline) override {
     finish_polyline();
@@ -109,12 +109,14 @@ class Collector : public DL_CreationAdapter {
     drawing_.unread += (drawing_.unread.empty() ? "" : ", ") + kind;
   }
 
-  void add(std::vector<ProfileSegment> segments, bool closed) {
-    if (!in_block_) drawing_.lines.push_back({getAttributes().getLayer(), std::move(segments), closed});
+  void add(std::vector<ProfileSegment> segments, bool closed, std::vector<double> heights) {
+    if (!in_block_)
+      drawing_.lines.push_back({getAttributes().getLayer(), std::move(segments), closed, std::move(heights)});
   }
 
   /// Two halves, so that a bulge says even a full circle.
-  void add_arc(const Eigen::Vector2d& centre, double radius, double from_rad, double sweep_rad, bool closed) {
+  void add_arc(const Eigen::Vector2d& centre, double radius, double from_rad, double sweep_rad, bool closed,
+               double height) {
     const auto place = [&](double turn) -> Eigen::Vector2d {
       return centre + radius * Eigen::Vector2d(std::cos(from_rad + turn), std::sin(from_rad + turn));
     };
@@ -123,22 +125,25 @@ class Collector : public DL_CreationAdapter {
     std::vector<ProfileSegment> halves{{place(0.0), place(0.5 * sweep_rad), bulge},
                                        {place(0.5 * sweep_rad), end, bulge}};
     if (mirrored()) mirror(halves);
-    add(std::move(halves), closed);
+    add(std::move(halves), closed, {height, height, height});
   }
 
   void finish_polyline() {
     if (!polyline_open_) return;
     std::vector<ProfileSegment> segments;
+    std::vector<double> heights;
     const std::size_t n = vertices_.size();
     for (std::size_t i = 0; i < n; ++i) {
       if (i + 1 == n && !polyline_closed_) break;
       const DL_VertexData& a = vertices_[i];
       const DL_VertexData& b = vertices_[(i + 1) % n];
       segments.push_back({{a.x, a.y}, {b.x, b.y}, a.bulge});
+      if (heights.empty()) heights.push_back(a.z);
+      heights.push_back(b.z);
     }
     if (polyline_mirrored_) mirror(segments);
     if (!in_block_ && !segments.empty())
-      drawing_.lines.push_back({polyline_layer_, std::move(segments), polyline_closed_});
+      drawing_.lines.push_back({polyline_layer_, std::move(segments), polyline_closed_, std::move(heights)});
     vertices_.clear();
     polyline_open_ = false;
   }

@@ -160,7 +160,7 @@ Job read_job(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const JsonPlace place(root, file.string());
   place.only_keys({"adit", "name", "client", "surveyor", "scans", "control", "targets", "alignment", "alignment_name",
-                   "profile", "lines", "chainage", "rounds", "options"});
+                   "alignment_start", "profile", "lines", "chainage", "rounds", "options"});
   if (place.at("adit").whole_number() != 1)
     place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
   Job job;
@@ -176,6 +176,7 @@ Job read_job(const fs::path& file) {
     place.refuse("\"targets\" without \"control\"", "name the control file, too");
   if (place.has("alignment")) job.alignment = existing_file(place.at("alignment"), folder);
   job.alignment_name = place.text_or("alignment_name", "");
+  if (place.has("alignment_start")) job.alignment_start_m = place.at("alignment_start").number_between(-1e6, 1e7, "m");
   if (place.has("profile")) job.profiles = read_profiles(place.at("profile"), folder);
   if (place.has("lines")) job.lines = read_lines(place.at("lines"));
   if (place.has("chainage")) job.chainage = read_chainage(place.at("chainage"));
@@ -215,6 +216,7 @@ std::string job_text(const Job& job) {
   if (!job.targets.empty()) root["targets"] = job.targets;
   if (!job.alignment.empty()) root["alignment"] = job.alignment;
   if (!job.alignment_name.empty()) root["alignment_name"] = job.alignment_name;
+  if (job.alignment_start_m) root["alignment_start"] = *job.alignment_start_m;
   for (const JobProfile& profile : job.profiles) {
     nlohmann::ordered_json one{{"file", profile.file}};
     if (!profile.layer.empty()) one["layer"] = profile.layer;

@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "core/foundation/options.h"
+#include "io/landxml_cant.h"
 #include "io/landxml_horizontal.h"
 #include "io/landxml_node.h"
+#include "io/landxml_stations.h"
 #include "io/landxml_vertical.h"
 
 namespace adit::io {
@@ -17,19 +19,23 @@ std::string metres(double value) {
   return short_number(std::round(value * 1e4) / 1e4) + " m";
 }
 
-void check_total_length(LandXmlAlignment& read, const std::string& subject) {
+void check_total_length(double stated_m, const std::string& subject, FileAxis& read) {
   const double length = read.axis->horizontal().to_m() - read.axis->horizontal().from_m();
-  if (read.stated_length_m == 0.0 || std::abs(read.stated_length_m - length) <= reported_length_m) return;
+  if (stated_m == 0.0 || std::abs(stated_m - length) <= reported_length_m) return;
   read.findings.push_back(
       {Severity::warning, subject,
-       "the file states a length of " + metres(read.stated_length_m) + ", its elements sum to " + metres(length),
+       "the file states a length of " + metres(stated_m) + ", its elements sum to " + metres(length),
        "the elements are used; ask whether some are missing"});
 }
 
-VerticalAlignment read_grade(const LandXmlNode& node, const std::string& subject, LandXmlAlignment& read) {
+void add(const Findings& more, Findings& findings) {
+  findings.insert(findings.end(), more.begin(), more.end());
+}
+
+VerticalAlignment read_grade(const LandXmlNode& node, const std::string& subject, FileAxis& read) {
   try {
     LandXmlGrade grade = read_landxml_grade(node, subject);
-    read.findings.insert(read.findings.end(), grade.findings.begin(), grade.findings.end());
+    add(grade.findings, read.findings);
     return std::move(grade.vertical);
   } catch (const Error& error) {
     read.grade_refusal = error;
@@ -37,75 +43,58 @@ VerticalAlignment read_grade(const LandXmlNode& node, const std::string& subject
   }
 }
 
-LandXmlAlignment read_alignment(const LandXmlNode& node, std::size_t number) {
-  LandXmlAlignment read;
+/// What the cross-section does changes no axis: without it the axis stays usable, and it is said.
+Cant read_cant(const LandXmlNode& node, const HorizontalAlignment& plan, const std::string& subject, FileAxis& read) {
+  try {
+    LandXmlCant cant = read_landxml_cant(node, plan, subject);
+    add(cant.findings, read.findings);
+    return std::move(cant.cant);
+  } catch (const Error& error) {
+    read.cant_refusal = error;
+    read.findings.push_back(
+        {Severity::warning, subject, "its cant is not honoured: " + error.what_is_wrong(), error.mend()});
+    return {};
+  }
+}
+
+FileAxis read_alignment(const LandXmlNode& node, std::size_t number) {
+  FileAxis read;
   read.name = node.text("name").empty() ? "alignment " + std::to_string(number) : node.text("name");
   const std::string subject = "alignment " + read.name;
   try {
-    read.stated_length_m = node.optional_length_m("length").value_or(0.0);
+    const double stated_length_m = node.optional_length_m("length").value_or(0.0);
     LandXmlPlan plan = read_landxml_plan(node, subject);
-    read.findings = std::move(plan.findings);
+    LandXmlStations stations = read_landxml_stations(node, subject);
+    add(plan.findings, read.findings);
+    add(stations.findings, read.findings);
     VerticalAlignment vertical = read_grade(node, subject, read);
-    read.axis.emplace(read.name, std::move(plan.horizontal), std::move(vertical));
-    check_total_length(read, subject);
+    Cant cant = read_cant(node, plan.horizontal, subject, read);
+    read.axis.emplace(read.name, std::move(plan.horizontal), std::move(vertical), std::move(stations.stations),
+                      std::move(cant));
+    check_total_length(stated_length_m, subject, read);
   } catch (const Error& error) {
     read.refusal = error;
   }
-  const std::string unread = unread_children(node, {"CoordGeom", "Profile"});
+  const std::string unread = unread_children(node, {"CoordGeom", "Profile", "StaEquation", "Cant", "Superelevation"});
   if (!unread.empty()) read.findings.push_back({Severity::note, subject, "not honoured: " + unread, ""});
   return read;
 }
 
-std::string names_of(const LandXmlFile& file) {
-  std::string names;
-  for (const LandXmlAlignment& alignment : file.alignments) {
-    names += (names.empty() ? "\"" : ", \"") + alignment.name + "\"";
-  }
-  return names;
-}
-
-const LandXmlAlignment& named(const LandXmlFile& file, const std::string& name) {
-  if (file.alignments.empty()) throw Error("the file holds no alignment", file.file, "export the axis with CoordGeom");
-  const LandXmlAlignment* found = nullptr;
-  for (const LandXmlAlignment& alignment : file.alignments) {
-    if (!name.empty() && alignment.name != name) continue;
-    if (found != nullptr) {
-      throw Error(name.empty() ? "the file holds several alignments" : "several alignments are named \"" + name + "\"",
-                  file.file, "name one of " + names_of(file));
-    }
-    found = &alignment;
-  }
-  if (found == nullptr) {
-    throw Error("the file holds no alignment \"" + name + "\"", file.file, "name one of " + names_of(file));
-  }
-  return *found;
-}
-
 }  // namespace
 
-LandXmlFile read_landxml(const std::filesystem::path& path) {
+AxisFile read_landxml(const std::filesystem::path& path) {
   const LandXmlDocument document(path);
   const LandXmlNode root(document, document.xml.document_element());
-  LandXmlFile file{document.name, {}, {}};
+  AxisFile file{document.name, "LandXML", {}, {}};
   for (const LandXmlNode& group : root.children("Alignments")) {
     for (const LandXmlNode& node : group.children("Alignment")) {
-      file.alignments.push_back(read_alignment(node, file.alignments.size() + 1));
+      file.axes.push_back(read_alignment(node, file.axes.size() + 1));
     }
   }
   const std::string unread =
       unread_children(root, {"Alignments", "Units", "Project", "Application", "CoordinateSystem", "FeatureDictionary"});
   if (!unread.empty()) file.findings.push_back({Severity::note, document.name, "not honoured: " + unread, ""});
   return file;
-}
-
-Alignment choose_alignment(const LandXmlFile& file, const std::string& name) {
-  const LandXmlAlignment& chosen = named(file, name);
-  if (chosen.refusal) throw *chosen.refusal;
-  if (chosen.grade_refusal) throw *chosen.grade_refusal;
-  if (chosen.axis->vertical().empty()) {
-    throw Error("alignment " + chosen.name + " has no grade line", file.file, "export it with its Profile");
-  }
-  return *chosen.axis;
 }
 
 }  // namespace adit::io

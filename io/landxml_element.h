@@ -17,6 +17,7 @@ struct LandXmlElement {
   std::optional<double> stated_radius_m;   ///< of a Curve; its centre gives another one when they differ
   std::optional<double> stated_start_dir;  ///< as written, in the file's unit
   std::string place;                       ///< file and line
+  bool of_polyline = false;                ///< a piece of an IrregularLine or Chain: it bends at its ends
 
   PlanPoint computed_end() const { return element_point(geometry, geometry.length_m); }
 };

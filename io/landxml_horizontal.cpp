@@ -8,6 +8,7 @@
 #include "core/foundation/angle.h"
 #include "core/foundation/options.h"
 #include "io/landxml_element.h"
+#include "io/landxml_polyline.h"
 
 namespace adit::io {
 namespace {
@@ -29,6 +30,21 @@ struct Elements {
   Findings findings;
 };
 
+/// Its pieces, and how much they bend where they meet.
+void add_polyline(const LandXmlNode& node, const std::string& name, const std::string& subject, Elements& elements) {
+  const std::vector<LandXmlElement> pieces = read_landxml_polyline(node, name);
+  double sharpest_rad = 0.0;
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    const double bend = wrapped_rad(pieces[i].geometry.azimuth_rad - pieces[i - 1].geometry.azimuth_rad);
+    sharpest_rad = std::max(sharpest_rad, std::abs(bend));
+  }
+  elements.list.insert(elements.list.end(), pieces.begin(), pieces.end());
+  elements.findings.push_back({Severity::warning, subject + ", " + name,
+                               "is " + std::to_string(pieces.size()) + " straight pieces, which bend by up to " +
+                                   short_number(std::round(deg_from_rad(sharpest_rad) * 1e4) / 1e4) + " degrees",
+                               "offsets jump there; ask for the curves it stands for"});
+}
+
 /// Elements in order, those without length left out and listed.
 Elements read_elements(const LandXmlNode& alignment, const std::string& subject) {
   Elements elements;
@@ -38,9 +54,12 @@ Elements read_elements(const LandXmlNode& alignment, const std::string& subject)
       const std::string kind = node.name();
       if (kind == "Feature") continue;
       const std::string name = kind + " " + std::to_string(++number);
+      if (kind == "IrregularLine" || kind == "Chain") {
+        add_polyline(node, name, subject, elements);
+        continue;
+      }
       if (kind != "Line" && kind != "Curve" && kind != "Spiral") {
-        node.fail(name + " of " + subject + " is not supported: only lines, arcs and clothoids are read exactly",
-                  "replace it by lines, arcs and clothoids");
+        node.fail(name + " of " + subject + " is not supported", "replace it by lines, arcs and clothoids");
       }
       LandXmlElement element = read_landxml_element(node, name);
       if (element.geometry.length_m > 0.0) {
@@ -87,7 +106,8 @@ void check_kink(const LandXmlElement& element, const LandXmlElement& next, const
                     element.geometry.name + " and " + next.geometry.name,
                 next.place, "write points as northing easting (they may be swapped) and elements in order of chainage");
   }
-  if (kink < reported_kink_rad) return;
+  const bool inside_polyline = element.of_polyline && next.of_polyline && element.place == next.place;
+  if (kink < reported_kink_rad || inside_polyline) return;
   findings.push_back({Severity::warning, subject + ", " + next.geometry.name,
                       "its direction differs from the end of " + element.geometry.name + " by " +
                           short_number(std::round(deg_from_rad(kink) * 1e4) / 1e4) + " degrees",

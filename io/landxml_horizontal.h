@@ -15,8 +15,8 @@ struct LandXmlPlan {
 };
 
 /// `subject` names the alignment in findings and errors: "alignment A50034A". Tangents come from coordinates;
-/// directions of the file are only compared. Throws Error for elements that are not lines, arcs or clothoids, gaps over
-/// 50 mm, elements that turn the other way than their points say, and an axis that turns back on itself.
+/// directions of the file are only compared. Throws Error for elements of other kinds, gaps over 50 mm, elements that
+/// turn the other way than their points say, and an axis that turns back on itself.
 LandXmlPlan read_landxml_plan(const LandXmlNode& alignment, const std::string& subject);
 
 }  // namespace adit::io

@@ -5,8 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "io/bytes.h"
+#include "io/character_set.h"
 #include "io/landxml_units.h"
 #include "io/text_place.h"
 
@@ -14,42 +16,6 @@ namespace adit::io {
 namespace {
 
 constexpr std::uint64_t largest_file_bytes = std::uint64_t{1} << 30;
-
-bool is_utf8(std::string_view text) {
-  int following = 0;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (following > 0) {
-      if ((byte & 0xC0U) != 0x80U) return false;
-      --following;
-    } else if (byte >= 0x80U) {
-      if (byte >= 0xC2U && byte <= 0xDFU)
-        following = 1;
-      else if (byte >= 0xE0U && byte <= 0xEFU)
-        following = 2;
-      else if (byte >= 0xF0U && byte <= 0xF4U)
-        following = 3;
-      else
-        return false;
-    }
-  }
-  return following == 0;
-}
-
-std::string utf8_from_latin1(std::string_view text) {
-  std::string converted;
-  converted.reserve(text.size());
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80U) {
-      converted += c;
-    } else {
-      converted += static_cast<char>(0xC0U | (byte >> 6U));
-      converted += static_cast<char>(0x80U | (byte & 0x3FU));
-    }
-  }
-  return converted;
-}
 
 /// The whole file as UTF-8.
 std::string read_text(const std::filesystem::path& path) {
@@ -63,7 +29,7 @@ std::string read_text(const std::filesystem::path& path) {
     throw Error("the text is UTF-16", file.name(), "save it as UTF-8");
   }
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  return is_utf8(text) ? text : utf8_from_latin1(text);
+  return as_utf8(std::move(text));
 }
 
 std::string_view local_name(std::string_view name) {
@@ -109,6 +75,7 @@ LandXmlDocument::LandXmlDocument(const std::filesystem::path& file) : name(file.
   if (root.name() != "LandXML")
     throw Error("the file is no LandXML: its root is <" + root.name() + ">", name, "export the axis as LandXML");
   units = read_landxml_units(root);
+  for (const LandXmlNode& group : root.children("CgPoints")) group.add_points_to(cg_points);
 }
 
 std::string LandXmlDocument::place(std::ptrdiff_t offset, bool with_column) const {
@@ -200,9 +167,27 @@ std::vector<double> LandXmlNode::numbers(std::size_t least) const {
   return values;
 }
 
+void LandXmlNode::add_points_to(std::map<std::string, pugi::xml_node>& points) const {
+  for (const LandXmlNode& point : children("CgPoint"))
+    if (point.has("name")) points.emplace(point.text("name"), point.node_);
+}
+
+std::optional<Eigen::Vector2d> LandXmlNode::referenced_point_m(const std::string& name) const {
+  const auto found = document_->cg_points.find(name);
+  if (found == document_->cg_points.end()) return std::nullopt;
+  const std::vector<double> values = LandXmlNode(*document_, found->second).numbers(2);
+  return units().metres_per_unit * Eigen::Vector2d(values[1], values[0]);
+}
+
 std::optional<Eigen::Vector2d> LandXmlNode::optional_point_m(std::string_view child_name) const {
   const auto point = child(child_name);
   if (!point) return std::nullopt;
+  if (point->has("pntRef") && point->numbers(0).empty()) {
+    const auto referenced = referenced_point_m(point->text("pntRef"));
+    if (!referenced)
+      point->fail("there is no CgPoint " + quoted_word(point->text("pntRef")), "export the points with the axis");
+    return referenced;
+  }
   const std::vector<double> values = point->numbers(2);
   return units().metres_per_unit * Eigen::Vector2d(values[1], values[0]);  // "northing easting [elevation]"
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -19,6 +20,7 @@ namespace adit::io {
 struct LandXmlUnits {
   double metres_per_unit = 1.0;
   double elevation_metres_per_unit = 1.0;  ///< Inframodel may state its own
+  double metres_per_cant_unit = 0.001;     ///< millimetres, inches in Imperial files
   enum class Angle { radians, grads, degrees, degrees_minutes_seconds };
   std::optional<Angle> direction = Angle::radians;  ///< empty when the word is unknown: directions are not checked then
 
@@ -33,6 +35,7 @@ struct LandXmlDocument {
   pugi::xml_document xml;
   std::vector<std::size_t> line_starts;
   LandXmlUnits units;
+  std::map<std::string, pugi::xml_node> cg_points;  ///< by name; of two with one name the first
 
   /// "axis.xml:12" or "axis.xml:12:7" of a byte of the text.
   std::string place(std::ptrdiff_t offset, bool with_column) const;
@@ -62,9 +65,16 @@ class LandXmlNode {
 
   /// The numbers of the element's text, at least `least` of them. Throws Error with line and column.
   std::vector<double> numbers(std::size_t least) const;
-  /// East, north [m] of a child that holds "northing easting [elevation]".
+  /// The element's text as it stands.
+  std::string content() const { return node_.text().get(); }
+  /// East, north [m] of the CgPoint of that name; empty when the file has none.
+  std::optional<Eigen::Vector2d> referenced_point_m(const std::string& name) const;
+  /// East, north [m] of a child that holds "northing easting [elevation]" or, as pntRef, the name of a CgPoint.
   Eigen::Vector2d point_m(std::string_view child_name) const;
   std::optional<Eigen::Vector2d> optional_point_m(std::string_view child_name) const;
+
+  /// Adds the CgPoints among the children by name.
+  void add_points_to(std::map<std::string, pugi::xml_node>& points) const;
 
   [[noreturn]] void fail(const std::string& what_is_wrong, const std::string& mend) const {
     throw Error(what_is_wrong, place(), mend);

@@ -76,12 +76,14 @@ double LandXmlUnits::direction_rad(double stated) const {
 LandXmlUnits read_landxml_units(const LandXmlNode& root) {
   const auto units = root.child("Units");
   auto system = units ? units->child("Metric") : std::nullopt;
-  if (units && !system) system = units->child("Imperial");
+  const bool imperial = units && !system;
+  if (imperial) system = units->child("Imperial");
   if (!system) root.fail("the file does not state its units", "add <Units><Metric linearUnit=\"meter\" .../></Units>");
   LandXmlUnits read;
   read.metres_per_unit = metres_per(*system, "linearUnit");
   read.elevation_metres_per_unit =
       system->has("elevationUnit") ? metres_per(*system, "elevationUnit") : read.metres_per_unit;
+  read.metres_per_cant_unit = imperial ? 0.0254 : 0.001;
   read.direction = angle_unit(system->text("directionUnit"));
   return read;
 }

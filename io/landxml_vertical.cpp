@@ -25,13 +25,17 @@ VerticalPoint read_point(const LandXmlNode& node, const std::string& subject) {
   if (kind == "ParaCurve") {
     point.curve = VerticalCurveKind::parabola;
     point.curve_length_m = node.length_m("length");
+  } else if (kind == "UnsymParaCurve") {
+    point.curve = VerticalCurveKind::unsymmetrical_parabola;
+    point.length_in_m = node.length_m("lengthIn");
+    point.curve_length_m = point.length_in_m + node.length_m("lengthOut");
   } else if (kind == "CircCurve") {
     point.curve = VerticalCurveKind::circle;
     point.radius_m = std::abs(node.length_m("radius"));  // some write a sign, some do not: the grades decide
     point.curve_length_m = node.optional_length_m("length").value_or(0.0);
   } else {
     node.fail(kind + " at chainage " + metres(point.chainage_m) + " of " + subject + " is not supported",
-              "replace it by ParaCurve or CircCurve");
+              "replace it by ParaCurve, UnsymParaCurve or CircCurve");
   }
   return point;
 }

@@ -15,8 +15,8 @@ struct LandXmlGrade {
   Findings findings;
 };
 
-/// `subject` names the alignment. Throws Error for unsymmetrical parabolas, several grade lines, and points that make
-/// no grade line.
+/// `subject` names the alignment. Throws Error for other curves, several grade lines, and points that make no grade
+/// line.
 LandXmlGrade read_landxml_grade(const LandXmlNode& alignment, const std::string& subject);
 
 }  // namespace adit::io

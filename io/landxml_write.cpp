@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <pugixml.hpp>
@@ -76,16 +77,64 @@ void add_element(pugi::xml_node geometry, const HorizontalElement& element, doub
 }
 
 void add_grade_line(pugi::xml_node alignment, const VerticalAlignment& vertical, const std::string& name) {
-  static constexpr const char* names[] = {"PVI", "ParaCurve", "CircCurve"};
+  static constexpr const char* names[] = {"PVI", "ParaCurve", "UnsymParaCurve", "CircCurve"};
   pugi::xml_node line = alignment.append_child("Profile").append_child("ProfAlign");
   set(line, "name", name);
   for (std::size_t i = 0; i < vertical.points().size(); ++i) {
     const VerticalPoint& point = vertical.points()[i];
     pugi::xml_node node = line.append_child(names[static_cast<int>(point.curve)]);
     const auto extent = vertical.curve_extent(i);
-    if (point.curve != VerticalCurveKind::none) set(node, "length", digits(extent.to_m - extent.from_m));
+    if (point.curve == VerticalCurveKind::unsymmetrical_parabola) {
+      set(node, "lengthIn", digits(point.length_in_m));
+      set(node, "lengthOut", digits(point.curve_length_m - point.length_in_m));
+    } else if (point.curve != VerticalCurveKind::none) {
+      set(node, "length", digits(extent.to_m - extent.from_m));
+    }
     if (point.curve == VerticalCurveKind::circle) set(node, "radius", digits(std::abs(point.radius_m)));
     node.text().set((digits(point.chainage_m) + " " + digits(point.elevation_m)).c_str());
+  }
+}
+
+void add_stations(pugi::xml_node alignment, const StationEquations& stations) {
+  for (std::size_t i = 0; i < stations.equations().size(); ++i) {
+    const StationEquation& equation = stations.equations()[i];
+    pugi::xml_node node = alignment.append_child("StaEquation");
+    set(node, "staAhead", digits(equation.ahead_m));
+    set(node, "staBack", digits(stations.back_m(i)));
+    set(node, "staInternal", digits(equation.chainage_m));
+    if (equation.decreasing) set(node, "staIncrement", "decreasing");
+  }
+}
+
+/// Where all stations turn about; empty when they differ or it is none that LandXML can say.
+std::string rotation_point(const Cant& cant) {
+  constexpr double same_m = 1e-9;
+  const auto all = [&](auto&& holds) { return std::all_of(cant.stations().begin(), cant.stations().end(), holds); };
+  if (all([](const CantStation& s) { return std::abs(s.left_m + s.right_m) < same_m; })) return "center";
+  if (all([](const CantStation& s) { return std::abs(s.right_m) < same_m; })) return "rightRail";
+  if (all([](const CantStation& s) { return std::abs(s.left_m) < same_m; })) return "leftRail";
+  const auto at_zero = [](double lower_m) { return std::abs(lower_m) < same_m; };
+  if (all([&](const CantStation& s) { return at_zero(std::min(s.left_m, s.right_m)); })) return "insideRail";
+  if (all([&](const CantStation& s) { return at_zero(std::max(s.left_m, s.right_m)); })) return "outsideRail";
+  return {};
+}
+
+void add_cant(pugi::xml_node alignment, const Cant& cant, const std::string& name) {
+  static constexpr const char* types[] = {"clothoid", "clothoid", "clothoid",    "bloss",
+                                          "cosine",   "sinusoid", "biquadratic", "clothoid"};
+  const std::string pivot = rotation_point(cant);
+  if (pivot.empty()) throw Error("the cant of " + name + " turns about changing points, which LandXML cannot say");
+  pugi::xml_node node = alignment.append_child("Cant");
+  set(node, "name", name);
+  set(node, "gauge", digits(cant.base_m()));
+  set(node, "rotationPoint", pivot);
+  for (const CantStation& station : cant.stations()) {
+    const double cant_m = station.left_m - station.right_m;
+    pugi::xml_node one = node.append_child("CantStation");
+    set(one, "station", digits(station.chainage_m));
+    set(one, "appliedCant", digits(1000.0 * std::abs(cant_m)));
+    set(one, "transitionType", types[static_cast<int>(station.transition)]);
+    set(one, "curvature", cant_m < 0.0 ? "ccw" : "cw");
   }
 }
 
@@ -116,10 +165,12 @@ std::string landxml_text(const Alignment& axis) {
   set(alignment, "name", axis.name());
   set(alignment, "length", digits(plan.to_m() - plan.from_m()));
   set(alignment, "staStart", digits(plan.from_m()));
+  add_stations(alignment, axis.stations());
   pugi::xml_node geometry = alignment.append_child("CoordGeom");
   for (std::size_t i = 0; i < plan.elements().size(); ++i) {
     add_element(geometry, plan.elements()[i], plan.element_from_m(i));
   }
+  if (!axis.cant().empty()) add_cant(alignment, axis.cant(), axis.name());
   if (!axis.vertical().empty()) add_grade_line(alignment, axis.vertical(), axis.name());
   std::ostringstream text;
   document.save(text, " ");

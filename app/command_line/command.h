@@ -41,5 +41,6 @@ Action declare_demo(CLI::App& command);
 Action declare_run(CLI::App& command, const std::string& last_step);
 Action declare_info(CLI::App& command);
 Action declare_convert(CLI::App& command);
+Action declare_axis(CLI::App& command);
 
 }  // namespace adit::app

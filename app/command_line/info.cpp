@@ -11,7 +11,8 @@
 #include "app/run_job.h"
 #include "core/foundation/error.h"
 #include "io/control_csv.h"
-#include "io/landxml.h"
+#include "io/kof.h"
+#include "io/read_axis.h"
 #include "io/read_profile.h"
 #include "io/scan_formats.h"
 #include "io/targets_csv.h"
@@ -91,10 +92,11 @@ json findings_info(const Findings& findings) {
   return list;
 }
 
-json landxml_info(const fs::path& file) {
-  const io::LandXmlFile content = io::read_landxml(file);
-  json out{{"file", file.string()}, {"format", "LandXML"}, {"alignments", json::array()}};
-  for (const auto& alignment : content.alignments) {
+/// Formats that state no chainages are shown from 0 on.
+json axis_info(const fs::path& file, const std::optional<double>& start_chainage_m = std::nullopt) {
+  const io::AxisFile content = io::read_axis(file, start_chainage_m);
+  json out{{"file", file.string()}, {"format", content.format}, {"alignments", json::array()}};
+  for (const auto& alignment : content.axes) {
     json one{{"name", alignment.name}};
     if (alignment.axis) {
       const HorizontalAlignment& plan = alignment.axis->horizontal();
@@ -102,6 +104,8 @@ json landxml_info(const fs::path& file) {
       one["to"] = plan.to_m();
       one["elements"] = plan.elements().size();
       one["grade_points"] = alignment.axis->vertical().points().size();
+      one["station_equations"] = alignment.axis->stations().equations().size();
+      one["cant_stations"] = alignment.axis->cant().stations().size();
     }
     if (alignment.refusal) one["refused"] = alignment.refusal->what();
     if (alignment.grade_refusal) one["grade_refused"] = alignment.grade_refusal->what();
@@ -122,6 +126,27 @@ json profile_info(const fs::path& file) {
           {"length_m", profile.length_m()},
           {"width_m", box.sizes().x()},
           {"height_m", box.sizes().y()}};
+}
+
+json kof_info(const fs::path& file) {
+  const io::KofFile kof = io::read_kof(file);
+  json out{{"file", file.string()}, {"format", "KOF"}, {"points", kof.points.size()}, {"lines", kof.lines.size()}};
+  if (!kof.lines.empty()) out["alignments"] = axis_info(file, 0.0)["alignments"];
+  out["findings"] = findings_info(kof.findings);
+  return out;
+}
+
+/// A drawing holds an axis or a profile: an open line is an axis.
+json dxf_info(const fs::path& file) {
+  try {
+    return profile_info(file);
+  } catch (const Error&) {
+    try {
+      return axis_info(file, 0.0);
+    } catch (const Error&) {
+    }
+    throw;
+  }
 }
 
 json job_info(const fs::path& file, Progress& progress) {
@@ -160,6 +185,7 @@ json table_info(const fs::path& file, Progress& progress) {
   if (starts("id") && starts("east"))
     return {{"file", file.string()}, {"format", "control"}, {"points", io::read_control_csv(file).size()}};
   if (starts("offset") && starts("height")) return profile_info(file);
+  if (starts("chain") && starts("east") && starts("north")) return axis_info(file);
   return scan_info(file, progress);
 }
 
@@ -169,8 +195,9 @@ json info(const fs::path& file, Progress& progress) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (fs::is_directory(file) || ending == ".json") return job_info(file, progress);
-  if (ending == ".xml" || ending == ".landxml") return landxml_info(file);
-  if (ending == ".dxf") return profile_info(file);
+  if (ending == ".xml" || ending == ".landxml" || ending == ".ifc") return axis_info(file);
+  if (ending == ".kof") return kof_info(file);
+  if (ending == ".dxf") return dxf_info(file);
   if (ending == ".csv" || ending == ".txt") return table_info(file, progress);
   return scan_info(file, progress);
 }

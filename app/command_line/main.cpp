@@ -68,6 +68,7 @@ std::vector<Command> commands() {
       {"report", "the report of a job, and what it needs", up_to("report")},
       {"info", "what a scan, alignment, profile, control file or job holds", declare_info},
       {"convert", "a scan into another format", declare_convert},
+      {"axis", "coordinate list of an alignment, or chainage and offset of points", declare_axis},
   };
 }
 

@@ -1,12 +1,15 @@
 #pragma once
-// Horizontal and vertical axis together: chainage to point and point to chainage, offset, height.
+// Horizontal and vertical axis together, with displayed stations and cant: chainage to point and point to chainage,
+// offset, height.
 
 #include <Eigen/Core>
 
 #include <optional>
 #include <string>
 
+#include "core/design/cant.h"
 #include "core/design/horizontal_alignment.h"
+#include "core/design/station_equations.h"
 #include "core/design/vertical_alignment.h"
 
 namespace adit {
@@ -24,12 +27,19 @@ struct TunnelPoint {
 class Alignment {
  public:
   Alignment() = default;
-  Alignment(std::string name, HorizontalAlignment horizontal, VerticalAlignment vertical)
-      : name_(std::move(name)), horizontal_(std::move(horizontal)), vertical_(std::move(vertical)) {}
+  Alignment(std::string name, HorizontalAlignment horizontal, VerticalAlignment vertical,
+            StationEquations stations = {}, Cant cant = {})
+      : name_(std::move(name)),
+        horizontal_(std::move(horizontal)),
+        vertical_(std::move(vertical)),
+        stations_(std::move(stations)),
+        cant_(std::move(cant)) {}
 
   const std::string& name() const { return name_; }
   const HorizontalAlignment& horizontal() const { return horizontal_; }
   const VerticalAlignment& vertical() const { return vertical_; }
+  const StationEquations& stations() const { return stations_; }
+  const Cant& cant() const { return cant_; }
 
   /// The chainages where both plan and grade are known; those of the plan when there is no grade line.
   double from_m() const;
@@ -37,8 +47,10 @@ class Alignment {
 
   /// Throws Error outside [from, to] (1 mm tolerance) and when there is no grade line.
   Eigen::Vector3d to_site(const TunnelPoint& point) const;
-  /// Empty where the point has no foot on the axis within [from, to] (1 mm tolerance). The hint is that of
-  /// HorizontalAlignment::foot. Throws Error when there is no grade line.
+  /// Empty where the point has no foot on the axis within [from, to] (1 mm tolerance). With a hint the foot is that of
+  /// HorizontalAlignment::foot; without one it is the foot that is nearest in space, so that on ramps that lie above
+  /// each other each point finds its own turn; empty when two feet are as near (1 mm). Throws Error when there is no
+  /// grade line.
   std::optional<TunnelPoint> to_tunnel(const Eigen::Vector3d& point, std::optional<double> hint_m = std::nullopt) const;
 
   /// The same axis with `origin` (east, north, elevation) subtracted.
@@ -48,6 +60,8 @@ class Alignment {
   std::string name_;
   HorizontalAlignment horizontal_;
   VerticalAlignment vertical_;
+  StationEquations stations_;
+  Cant cant_;
 };
 
 }  // namespace adit

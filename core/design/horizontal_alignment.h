@@ -52,6 +52,10 @@ class HorizontalAlignment {
   /// metres of the answer) the search starts there and stays within 30 m of it: about 0.1 microseconds.
   std::optional<PlanFoot> foot(const Eigen::Vector2d& point, std::optional<double> hint_m = std::nullopt) const;
 
+  /// All feet of a point that lie at most `beyond_m` farther from it than the nearest one, in order of chainage:
+  /// several where the axis comes back beside or above itself.
+  std::vector<PlanFoot> feet(const Eigen::Vector2d& point, double beyond_m) const;
+
   /// Of the stretch [from, to], or what of it lies on the axis.
   AxisBend bend_between(double from_m, double to_m) const;
 
@@ -71,7 +75,7 @@ class HorizontalAlignment {
   void lay_discs();
   std::size_t knot_at(double chainage_m) const;
   double checked(double chainage_m) const;
-  std::vector<std::size_t> nearest_knots(const Eigen::Vector2d& point) const;
+  std::vector<std::size_t> nearest_knots(const Eigen::Vector2d& point, double beyond_m) const;
   std::size_t nearest_leaf(const Eigen::Vector2d& point) const;
   std::optional<PlanFoot> foot_near(const Eigen::Vector2d& point, double hint_m) const;
   Settled settle(const Eigen::Vector2d& point, double chainage_m) const;

@@ -69,13 +69,13 @@ std::size_t HorizontalAlignment::nearest_leaf(const Eigen::Vector2d& point) cons
   return nearest(leaves_, branch.first, branch.last);
 }
 
-std::vector<std::size_t> HorizontalAlignment::nearest_knots(const Eigen::Vector2d& point) const {
+std::vector<std::size_t> HorizontalAlignment::nearest_knots(const Eigen::Vector2d& point, double beyond_m) const {
   const auto distance = [&](std::size_t i) { return (point - knots_[i].position).norm(); };
   const Disc& start = leaves_[nearest_leaf(point)];
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t i = start.first; i < start.last; ++i) best = std::min(best, distance(i));
   // The foot lies at most one stretch from a knot, so a knot that leads to it is at most that much farther.
-  constexpr double margin_m = 1.1;
+  const double margin_m = 1.1 + beyond_m;
   const auto within = [&](const Disc& disc) { return (point - disc.centre).norm() - disc.radius_m <= best + margin_m; };
   std::vector<std::size_t> candidates;
   for (const Disc& branch : branches_) {
@@ -197,12 +197,28 @@ std::optional<PlanFoot> HorizontalAlignment::foot(const Eigen::Vector2d& point, 
   if (knots_.empty() || !point.allFinite()) return std::nullopt;
   if (hint_m) return foot_near(point, *hint_m);
   Settled best;
-  for (const std::size_t knot : nearest_knots(point)) {
+  for (const std::size_t knot : nearest_knots(point, 0.0)) {
     const Settled found = settle_in(point, knot);
     if (found.how != Settled::How::failed && found.distance_m < best.distance_m) best = found;
   }
   if (best.how != Settled::How::found) return std::nullopt;
   return best.foot;
+}
+
+std::vector<PlanFoot> HorizontalAlignment::feet(const Eigen::Vector2d& point, double beyond_m) const {
+  constexpr double same_m = 1e-3;
+  std::vector<PlanFoot> found;
+  if (knots_.empty() || !point.allFinite()) return found;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::size_t knot : nearest_knots(point, beyond_m)) {
+    const Settled one = settle_in(point, knot);
+    if (one.how != Settled::How::found) continue;
+    if (!found.empty() && std::abs(found.back().chainage_m - one.foot.chainage_m) < same_m) continue;
+    found.push_back(one.foot);
+    nearest = std::min(nearest, one.distance_m);
+  }
+  std::erase_if(found, [&](const PlanFoot& foot) { return std::abs(foot.offset_m) > nearest + beyond_m; });
+  return found;
 }
 
 }  // namespace adit

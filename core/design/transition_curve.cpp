@@ -52,6 +52,10 @@ double arc_length_m(double constant_m2, double from_x, double to_x) {
 
 }  // namespace
 
+double share_done(HorizontalKind kind, double u) {
+  return change_at(kind, u).done;
+}
+
 ElementTurn turn_at(const HorizontalElement& element, double along_m) {
   const double start = element.start_curvature_per_m;
   const double change = element.end_curvature_per_m - start;

@@ -13,6 +13,10 @@ struct ElementTurn {
   double curvature_per_m = 0.0;
 };
 
+/// Share of the change between both ends that is done at u, 0 to 1, of the length; see HorizontalKind. Linear for
+/// lines, arcs, clothoids and cubic parabolas.
+double share_done(HorizontalKind kind, double u);
+
 /// At a place on a line, arc or transition curve whose curvature is a function of its length; see HorizontalKind.
 ElementTurn turn_at(const HorizontalElement& element, double along_m);
 

@@ -21,10 +21,16 @@ std::string point_at(const VerticalPoint& point) {
 
 void check(const VerticalPoint& point) {
   const bool finite = std::isfinite(point.chainage_m) && std::isfinite(point.elevation_m) &&
-                      std::isfinite(point.curve_length_m) && std::isfinite(point.radius_m);
+                      std::isfinite(point.curve_length_m) && std::isfinite(point.radius_m) &&
+                      std::isfinite(point.length_in_m);
   if (!finite) throw Error("a point of the grade line holds a number that is not finite");
   if (point.curve == VerticalCurveKind::parabola && point.curve_length_m < 0.0) {
     throw Error(point_at(point) + " has a curve of negative length", {}, "write its length without a sign");
+  }
+  if (point.curve == VerticalCurveKind::unsymmetrical_parabola &&
+      !(point.length_in_m > 0.0 && point.curve_length_m > point.length_in_m)) {
+    throw Error(point_at(point) + " has an unsymmetrical curve without a length on one side", {},
+                "write both lengths, without a sign");
   }
 }
 
@@ -32,7 +38,8 @@ void check(const VerticalPoint& point) {
 void drop_empty_curve(VerticalPoint& point) {
   const bool parabola = point.curve == VerticalCurveKind::parabola && point.curve_length_m > 0.0;
   const bool circle = point.curve == VerticalCurveKind::circle && point.radius_m != 0.0;
-  if (!parabola && !circle) point.curve = VerticalCurveKind::none;
+  const bool unsymmetrical = point.curve == VerticalCurveKind::unsymmetrical_parabola;
+  if (!parabola && !circle && !unsymmetrical) point.curve = VerticalCurveKind::none;
 }
 
 double grade_between(const VerticalPoint& a, const VerticalPoint& b) {
@@ -45,6 +52,9 @@ VerticalAlignment::CurveExtent extent(const VerticalPoint& a, const VerticalPoin
   if (b.curve == VerticalCurveKind::none) return {b.chainage_m, b.chainage_m};
   if (b.curve == VerticalCurveKind::parabola) {
     return {b.chainage_m - 0.5 * b.curve_length_m, b.chainage_m + 0.5 * b.curve_length_m};
+  }
+  if (b.curve == VerticalCurveKind::unsymmetrical_parabola) {
+    return {b.chainage_m - b.length_in_m, b.chainage_m + b.curve_length_m - b.length_in_m};
   }
   const double slope_in = std::atan(grade_between(a, b));
   const double slope_out = std::atan(grade_between(b, c));
@@ -105,6 +115,17 @@ void VerticalAlignment::lay_pieces() {
       Piece curve{from, point.elevation_m - grade_in * (point.chainage_m - from), grade_in, 0.0, 0.0, 0.0};
       if (point.curve == VerticalCurveKind::parabola) {
         curve.grade_rate_per_m = (grade_out - grade_in) / point.curve_length_m;
+      } else if (point.curve == VerticalCurveKind::unsymmetrical_parabola) {
+        const double in_m = point.length_in_m, out_m = point.curve_length_m - in_m;
+        const double bend = (grade_out - grade_in) / point.curve_length_m;
+        curve.grade_rate_per_m = bend * out_m / in_m;
+        pieces_.push_back(curve);
+        curve = {point.chainage_m,
+                 point.elevation_m + 0.5 * bend * in_m * out_m,
+                 grade_in + bend * out_m,
+                 bend * in_m / out_m,
+                 0.0,
+                 0.0};
       } else {
         curve.sine = std::sin(std::atan(grade_in));
         curve.sine_rate_per_m = std::copysign(1.0 / std::abs(point.radius_m), grade_out - grade_in);

@@ -6,16 +6,19 @@
 
 namespace adit {
 
-enum class VerticalCurveKind { none, parabola, circle };
+enum class VerticalCurveKind { none, parabola, unsymmetrical_parabola, circle };
 
-/// A point of vertical intersection. parabola: curve_length_m, centred on the point (LandXML ParaCurve). circle:
-/// curve_length_m (horizontal) and radius_m as LandXML CircCurve gives them; the radius leads, the length is a check.
+/// A point of vertical intersection. parabola: curve_length_m, centred on the point (LandXML ParaCurve).
+/// unsymmetrical_parabola: length_in_m before the point and the rest of curve_length_m behind it, two parabolas that
+/// meet at the point with one grade (UnsymParaCurve). circle: curve_length_m (horizontal) and radius_m as LandXML
+/// CircCurve gives them; the radius leads, the length is a check.
 struct VerticalPoint {
   double chainage_m = 0.0;
   double elevation_m = 0.0;
   VerticalCurveKind curve = VerticalCurveKind::none;
   double curve_length_m = 0.0;
   double radius_m = 0.0;
+  double length_in_m = 0.0;
 };
 
 struct VerticalPosition {

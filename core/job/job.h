@@ -68,7 +68,8 @@ struct Job {
   std::string control;  ///< files; empty: none
   std::string targets;
   std::string alignment;
-  std::string alignment_name;  ///< when the file holds several
+  std::string alignment_name;               ///< when the file holds several
+  std::optional<double> alignment_start_m;  ///< chainage of its first point, for formats that state none
   std::vector<JobProfile> profiles;
   std::vector<DesignLine> lines{{"excavation", 0.0}};
   std::optional<JobChainage> chainage;

@@ -38,7 +38,7 @@ Section cut_section(const DeviationMap& map, const DesignTunnel& design, double 
                     const ProfilingOptions& options) {
   Section section;
   section.chainage_m = chainage_m;
-  section.station_m = chainage_m;
+  section.station_m = design.alignment().stations().displayed_m(chainage_m);
   section.axis_site = design.alignment().to_site({chainage_m, 0.0, 0.0});
   const Profile& profile = design.profile_at(chainage_m);
   const ProfileStretch stretch(profile);

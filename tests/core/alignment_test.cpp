@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 
 namespace adit {
@@ -74,6 +75,22 @@ TEST(Axis, NothingWhereOnlyThePlanIsKnown) {
   const Eigen::Vector2d plan = axis.horizontal().to_plan({1198.0, 1.0});
   EXPECT_FALSE(axis.to_tunnel({plan.x(), plan.y(), 411.0}, 1197.0).has_value());
   EXPECT_THROW(axis.to_site({1198.0, 1.0, 0.0}), Error);
+}
+
+TEST(Axis, OnARampEachPointFindsItsOwnTurn) {
+  // Three turns of 20 m radius, 6 m apart in height.
+  const double turn_m = 40.0 * pi;
+  const HorizontalAlignment plan({{HorizontalKind::arc, "", {0, 0}, 0.0, 3 * turn_m, 0.05, 0.05}}, 0.0);
+  const Alignment ramp("ramp", plan, VerticalAlignment({{0, 0}, {3 * turn_m, 18}}));
+  for (double s = 3; s < 3 * turn_m - 3; s += 7.3)
+    for (const double x : {-2.5, 0.0, 3.0}) {
+      const auto back = ramp.to_tunnel(ramp.to_site({s, x, 1.8}));
+      ASSERT_TRUE(back.has_value()) << s;
+      EXPECT_NEAR(back->s_m, s, 1e-9);
+      EXPECT_NEAR(back->x_m, x, 1e-9);
+      EXPECT_NEAR(back->z_m, 1.8, 1e-9);
+    }
+  EXPECT_FALSE(ramp.to_tunnel(ramp.to_site({60, 1, 3.0})).has_value());  // half way between two turns
 }
 
 }  // namespace

@@ -52,6 +52,28 @@ TEST(GradeLine, ParabolaHasItsAnalyticMiddleAndEnds) {
   }
 }
 
+TEST(GradeLine, UnsymmetricalParabolasMeetAtThePointWithOneGrade) {
+  VerticalPoint crest = pvi(100, 103);
+  crest.curve = VerticalCurveKind::unsymmetrical_parabola;
+  crest.length_in_m = 30;
+  crest.curve_length_m = 80;
+  const VerticalAlignment line({pvi(0, 100), crest, pvi(250, 100)});
+  const double g1 = 0.03, g2 = -0.02, l1 = 30, l2 = 50;
+  EXPECT_NEAR(line.at(100).elevation_m, 103 + (g2 - g1) * l1 * l2 / (2 * (l1 + l2)), 1e-12);  // AASHTO's offset
+  EXPECT_NEAR(line.at(70).grade, g1, 1e-15);
+  EXPECT_NEAR(line.at(150).grade, g2, 1e-15);
+  for (const double joint : {70.0, 100.0, 150.0}) {
+    EXPECT_NEAR(line.at(joint - 1e-9).elevation_m, line.at(joint + 1e-9).elevation_m, 1e-9);
+    EXPECT_NEAR(line.at(joint - 1e-9).grade, line.at(joint + 1e-9).grade, 1e-9);
+  }
+  crest.length_in_m = 40;  // as long on both sides: the plain parabola
+  const VerticalAlignment even({pvi(0, 100), crest, pvi(250, 100)});
+  const VerticalAlignment plain({pvi(0, 100), parabola(100, 103, 80), pvi(250, 100)});
+  for (double s = 55; s < 145; s += 3) EXPECT_NEAR(even.at(s).elevation_m, plain.at(s).elevation_m, 1e-12);
+  crest.length_in_m = 80;
+  EXPECT_NE(message_of({pvi(0, 100), crest, pvi(250, 100)}).find("unsymmetrical"), std::string::npos);
+}
+
 TEST(GradeLine, CircleTouchesBothGradesAndKeepsItsRadius) {
   for (const double radius : {1500.0, -1500.0, 20000.0}) {  // the sign is a habit of programs, the grades decide
     for (const double rise : {6.0, -6.0}) {

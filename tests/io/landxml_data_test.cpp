@@ -13,7 +13,7 @@ namespace {
 using tests::error_of;
 using tests::expect_words;
 
-LandXmlFile read(const std::string& file) {
+AxisFile read(const std::string& file) {
   return read_landxml(tests::real_data() / file);
 }
 
@@ -36,12 +36,12 @@ void expect_joined(const HorizontalAlignment& plan, double gap_m, double kink_ra
 
 TEST(RailwayAxisData, ElevenAlignmentsWholeAndJoined) {
   ADIT_NEED_REAL_DATA();
-  const LandXmlFile file = read("axis-sbb.xml");
-  ASSERT_EQ(file.alignments.size(), 11U);
+  const AxisFile file = read("axis-sbb.xml");
+  ASSERT_EQ(file.axes.size(), 11U);
   std::map<HorizontalKind, int> kinds;
   std::size_t circles = 0;
   double length = 0.0;
-  for (const LandXmlAlignment& alignment : file.alignments) {
+  for (const FileAxis& alignment : file.axes) {
     ASSERT_TRUE(alignment.axis.has_value()) << alignment.name;
     const Alignment axis = choose_alignment(file, alignment.name);
     for (const auto& e : axis.horizontal().elements()) ++kinds[e.kind];
@@ -58,9 +58,9 @@ TEST(RailwayAxisData, ElevenAlignmentsWholeAndJoined) {
 
 TEST(RailwayAxisData, WhatIsWrongWithTheFileIsReported) {
   ADIT_NEED_REAL_DATA();
-  const LandXmlFile file = read("axis-sbb.xml");
+  const AxisFile file = read("axis-sbb.xml");
   std::map<std::string, std::string> warnings;
-  for (const auto& alignment : file.alignments) {
+  for (const auto& alignment : file.axes) {
     for (const Finding& f : alignment.findings) {
       if (f.severity != Severity::note) warnings[f.subject] += f.words;
     }
@@ -85,8 +85,8 @@ TEST(RailwayAxisData, FeetOfPlacesBesideTheAxis) {
 
 TEST(CorridorAxisData, IsReadWithoutAFinding) {
   ADIT_NEED_REAL_DATA();
-  const LandXmlFile file = read("corridor/axis.xml");
-  EXPECT_TRUE(file.findings.empty() && file.alignments.at(0).findings.empty());
+  const AxisFile file = read("corridor/axis.xml");
+  EXPECT_TRUE(file.findings.empty() && file.axes.at(0).findings.empty());
   const Alignment axis = choose_alignment(file, "");
   EXPECT_LT((axis.to_site({3, 0, 0}) - Eigen::Vector3d(3, 0.39, -0.95)).norm(), 1e-12);
 }
@@ -118,15 +118,15 @@ TEST(OtherAxesData, AreReadOrRefusedWithTheirReason) {
       {crosssects, {"GSG_corridors.xml", "Basic_Road", 0, 505.5493, 5, 0, nullptr}},
       {crosssects, {"landxml_road_cl_sample.xml", "Main Road CL", 0, 960.0, 5, 0, "no grade line"}},
       {crosssects, {"landxml_road_sample.xml", "Main Road", 0, 748.4357, 8, 3, nullptr}},
-      {crosssects, {"j_landxml_sample.xml", "○○路線", -90, 995.9462, 18, 0, nullptr}},
-      {crosssects, {"MiddleCalmarRoad.xml", "TROUT RUN ROAD", 0, 281.6051, 6, 5, "UnsymParaCurve at chainage 50.8731"}},
+      {crosssects, {"j_landxml_sample.xml", "○○路線", -90, 995.9462, 18, 1, nullptr}},
+      {crosssects, {"MiddleCalmarRoad.xml", "TROUT RUN ROAD", 0, 281.6051, 6, 5, "overlap by 13.606 m"}},
       {crosssects, {"MiddleCalmarRoad.xml", "MIDDLE CALMAR ROAD", 0, 809.9012, 10, 9, "no grade line"}},
   };
   for (const auto& [folder, expected] : table) {
     SCOPED_TRACE(expected.file);
-    const LandXmlFile file = read(folder + expected.file);
-    const LandXmlAlignment* found = nullptr;
-    for (const auto& a : file.alignments) found = a.name == expected.alignment ? &a : found;
+    const AxisFile file = read(folder + expected.file);
+    const FileAxis* found = nullptr;
+    for (const auto& a : file.axes) found = a.name == expected.alignment ? &a : found;
     ASSERT_NE(found, nullptr);
     ASSERT_TRUE(found->axis.has_value()) << found->refusal->what();
     const HorizontalAlignment& plan = found->axis->horizontal();
@@ -145,10 +145,10 @@ TEST(OtherAxesData, AreReadOrRefusedWithTheirReason) {
 
 TEST(OtherAxesData, FilesWithoutPlanGeometrySaySo) {
   ADIT_NEED_REAL_DATA();
-  const LandXmlFile points_only = read("alignments/landxml_crosssects/MntnRoad.xml");
+  const AxisFile points_only = read("alignments/landxml_crosssects/MntnRoad.xml");
   expect_words(error_of([&] { choose_alignment(points_only, ""); }), {"MntnRoad.xml:12", "AlignPIs"});
-  const LandXmlFile surfaces = read("alignments/inframodel_fi/M3_Rockbed_survey.mm.xml");
-  EXPECT_TRUE(surfaces.alignments.empty());
+  const AxisFile surfaces = read("alignments/inframodel_fi/M3_Rockbed_survey.mm.xml");
+  EXPECT_TRUE(surfaces.axes.empty());
   expect_words(surfaces.findings.at(0).words, {"Surfaces (1)"});
   expect_words(error_of([&] { choose_alignment(surfaces, ""); }), {"no alignment"});
 }

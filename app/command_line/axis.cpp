@@ -1,0 +1,196 @@
+// adit axis FILE: the coordinate list of an axis, or chainage, offset and height of points.
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/command_line/command.h"
+#include "core/foundation/angle.h"
+#include "core/foundation/options.h"
+#include "io/csv_rows.h"
+#include "io/read_axis.h"
+#include "io/read_control.h"
+#include "io/text_place.h"
+
+namespace adit::app {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::string file;
+  std::string name;
+  std::string points;
+  double every_m = 1.0;
+  std::optional<double> start_m;
+};
+
+/// A number of the output: how many decimals it is given, and whether there is one.
+struct Number {
+  const char* key;
+  int decimals;
+  std::optional<double> value;
+};
+
+constexpr int micrometres = 6;
+
+/// Rows on stdout, as CSV or as a list of objects.
+class Rows {
+ public:
+  Rows(bool as_json, bool with_id, const std::vector<Number>& columns) : as_json_(as_json) {
+    if (as_json_) return;
+    std::string header = with_id ? "id" : "";
+    for (const Number& column : columns) header += (header.empty() ? "" : ",") + std::string(column.key);
+    std::printf("%s\n", header.c_str());
+  }
+
+  void add(const std::optional<std::string>& id, const std::vector<Number>& numbers) {
+    if (as_json_) {
+      json row = json::object();
+      if (id) row["id"] = *id;
+      for (const Number& number : numbers) row[number.key] = number.value ? json(rounded(number)) : json(nullptr);
+      rows_.push_back(std::move(row));
+      return;
+    }
+    std::string text;
+    bool first = true;
+    const auto put = [&](const std::string& word) {
+      text += (first ? "" : ",") + word;
+      first = false;
+    };
+    if (id) put(io::csv_word(*id));
+    for (const Number& number : numbers) put(number.value ? digits(number) : std::string());
+    std::printf("%s\n", text.c_str());
+  }
+
+  /// The list under its key, with what else is to be said.
+  void end(json about, const char* key) {
+    if (!as_json_) return;
+    about[key] = std::move(rows_);
+    std::printf("%s\n", about.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
+  }
+
+ private:
+  static std::string digits(const Number& number) {
+    char text[400];
+    const double value = *number.value == 0.0 ? 0.0 : *number.value;  // no minus before nothing
+    return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, number.decimals).ptr};
+  }
+  static double rounded(const Number& number) {
+    const double steps = std::pow(10.0, number.decimals);
+    return std::round(*number.value * steps) / steps;
+  }
+
+  bool as_json_;
+  json rows_ = json::array();
+};
+
+/// Both ends and every whole multiple of the interval between them.
+std::vector<double> listed_chainages(double from_m, double to_m, double every_m) {
+  constexpr double same_m = 1e-6, most = 1e7;
+  if ((to_m - from_m) / every_m > most) throw Error("more than 10 million rows", "--every", "use a larger interval");
+  std::vector<double> chainages{from_m};
+  for (double k = std::floor(from_m / every_m) + 1.0; k * every_m < to_m - same_m; ++k)
+    if (k * every_m > from_m + same_m) chainages.push_back(k * every_m);
+  chainages.push_back(to_m);
+  return chainages;
+}
+
+std::vector<Number> row_at(const Alignment& axis, double chainage_m) {
+  const PlanPoint plan = axis.horizontal().at(chainage_m);
+  const VerticalAlignment& grade = axis.vertical();
+  const bool graded = !grade.empty() && chainage_m >= grade.from_m() - 1e-3 && chainage_m <= grade.to_m() + 1e-3;
+  const std::optional<VerticalPosition> vertical = graded ? std::optional(grade.at(chainage_m)) : std::nullopt;
+  double bearing_deg = std::fmod(deg_from_rad(plan.azimuth_rad), 360.0);
+  if (bearing_deg < 0.0) bearing_deg += 360.0;
+  const auto of = [&](double VerticalPosition::*member) {
+    return vertical ? std::optional(*vertical.*member) : std::nullopt;
+  };
+  return {{"chainage", micrometres, chainage_m},
+          {"station", micrometres, axis.stations().displayed_m(chainage_m)},
+          {"east", micrometres, plan.position.x()},
+          {"north", micrometres, plan.position.y()},
+          {"elevation", micrometres, of(&VerticalPosition::elevation_m)},
+          {"bearing_deg", 8, bearing_deg},
+          {"grade", 9, of(&VerticalPosition::grade)},
+          {"curvature_per_m", 12, plan.curvature_per_m},
+          {"cant_m", micrometres, axis.cant().at(chainage_m).cant_m}};
+}
+
+int list_coordinates(const Arguments& arguments, const Alignment& axis, bool as_json) {
+  const HorizontalAlignment& plan = axis.horizontal();
+  Rows rows(as_json, false, row_at(axis, plan.from_m()));
+  for (const double chainage_m : listed_chainages(plan.from_m(), plan.to_m(), arguments.every_m))
+    rows.add(std::nullopt, row_at(axis, chainage_m));
+  rows.end({{"file", arguments.file}, {"alignment", axis.name()}}, "rows");
+  return exit_good;
+}
+
+std::vector<Number> columns_of(const Alignment& axis, const std::optional<TunnelPoint>& at) {
+  const auto of = [&](double TunnelPoint::*member) { return at ? std::optional((*at).*member) : std::nullopt; };
+  const auto station = at ? std::optional(axis.stations().displayed_m(at->s_m)) : std::nullopt;
+  return {{"chainage", micrometres, of(&TunnelPoint::s_m)},
+          {"station", micrometres, station},
+          {"offset", micrometres, of(&TunnelPoint::x_m)},
+          {"height", micrometres, of(&TunnelPoint::z_m)}};
+}
+
+int list_points(const Arguments& arguments, const Alignment& axis, const CommonOptions& common) {
+  const io::ControlFile file = io::read_control(arguments.points);
+  Rows rows(common.json, true, columns_of(axis, std::nullopt));
+  std::size_t without = 0;
+  std::string first;
+  for (const ControlPoint& point : file.points) {
+    const auto at = axis.to_tunnel(point.position);
+    if (!at && without++ == 0) first = point.id;
+    rows.add(point.id, columns_of(axis, at));
+  }
+  if (without > 0)
+    std::fprintf(stderr,
+                 "adit: %s: %zu of %zu points, first %s, have no single foot on the axis, which runs from %s to %s; "
+                 "check their coordinates\n",
+                 arguments.points.c_str(), without, file.points.size(), io::quoted_word(first).c_str(),
+                 short_number(axis.from_m()).c_str(), short_number(axis.to_m()).c_str());
+  rows.end({{"file", arguments.file}, {"alignment", axis.name()}}, "points");
+  return without == 0 ? exit_good : exit_needs_a_person;
+}
+
+/// What the reader says of the axis, on stderr.
+void print_findings(const io::AxisFile& file, const io::FileAxis& axis) {
+  for (const Findings* findings : {&file.findings, &axis.findings})
+    for (const Finding& finding : *findings)
+      if (finding.severity != Severity::note)
+        std::fprintf(stderr, "adit: %s: %s; %s\n", finding.subject.c_str(), finding.words.c_str(),
+                     finding.mend.empty() ? "see docs/formats.md" : finding.mend.c_str());
+}
+
+}  // namespace
+
+Action declare_axis(CLI::App& command) {
+  auto arguments = std::make_shared<Arguments>();
+  command.add_option("FILE", arguments->file, "an alignment (.xml, .ifc, .dxf, .kof, .csv)")
+      ->required()
+      ->check(some_name);
+  command.add_option("--name", arguments->name, "which alignment of a file that holds several");
+  auto* every = command.add_option("--every", arguments->every_m, "list whole multiples of this chainage [m] (1)")
+                    ->check(CLI::Range(0.001, 1e6));
+  command.add_option("--points", arguments->points, "points to find on the axis: id,east,north,elevation")
+      ->check(some_name)
+      ->excludes(every);
+  command.add_option("--start", arguments->start_m, "chainage of the first point, for files that state none [m]")
+      ->check(CLI::Range(-1e6, 1e7));
+  return [arguments](const CommonOptions& common, Progress&) {
+    const io::AxisFile file = io::read_axis(arguments->file, arguments->start_m);
+    const io::FileAxis& read = io::named_axis(file, arguments->name);
+    if (!common.quiet) print_findings(file, read);
+    if (!arguments->points.empty()) return list_points(*arguments, io::choose_alignment(file, arguments->name), common);
+    if (read.grade_refusal) std::fprintf(stderr, "adit: %s\n", read.grade_refusal->what());
+    const int listed = list_coordinates(*arguments, *read.axis, common.json);
+    return read.grade_refusal ? exit_needs_a_person : listed;
+  };
+}
+
+}  // namespace adit::app
