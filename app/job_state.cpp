@@ -11,6 +11,7 @@
 #include "io/read_axis.h"
 #include "io/read_control.h"
 #include "io/read_profile.h"
+#include "io/read_rings.h"
 #include "io/sha256.h"
 #include "io/targets_csv.h"
 #include "io/truth_json.h"
@@ -24,6 +25,7 @@ std::vector<std::string> files_of(const Job& job) {
   std::vector<std::string> files;
   for (const JobScan& scan : job.scans) files.push_back(scan.file);
   for (const JobProfile& profile : job.profiles) files.push_back(profile.file);
+  if (job.rings) files.push_back(job.rings->file);
   for (const std::string* file : {&job.control, &job.targets, &job.alignment})
     if (!file->empty()) files.push_back(*file);
   std::sort(files.begin(), files.end());
@@ -41,8 +43,8 @@ void expect_inputs_apart(const JobState& state, const std::vector<std::string>& 
     const auto refuse = [&] {
       throw Error("a run would write over this input", input.string(), "move it, or choose another folder with --out");
     };
-    for (const char* name :
-         {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "results.json", "report.pdf", ".lock"})
+    for (const char* name : {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "rings.csv", "results.json",
+                             "report.pdf", ".lock"})
       if (real(state.out / name) == input) refuse();
     for (const char* name : {"import", "steps", "report", "figures"}) {
       const fs::path below = input.lexically_relative(real(state.out / name));
@@ -84,6 +86,15 @@ void read_control(JobState& state) {
   add(file.findings, state.input_findings);
 }
 
+void read_rings(JobState& state) {
+  if (!state.job.rings) return;
+  if (!state.alignment)
+    throw Error("\"rings\" without \"alignment\"", state.file.string(), "name the axis the rings belong to");
+  io::RingFile file = io::read_rings(state.folder / state.job.rings->file, state.job.rings->target_offset_m);
+  state.ring_points = std::move(file.points);
+  add(file.findings, state.input_findings);
+}
+
 }  // namespace
 
 JobChainage JobState::stretch() const {
@@ -102,6 +113,7 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
   for (const JobProfile& profile : state.job.profiles)
     state.profiles.push_back({profile.from_m, io::read_profile(state.folder / profile.file, profile.layer)});
   read_control(state);
+  read_rings(state);
   if (!state.job.targets.empty()) state.targets = io::read_targets_csv(state.folder / state.job.targets);
   look_at_cant(state);
   check_job(state);

@@ -36,6 +36,7 @@ struct JobState {
   std::vector<ProfileFrom> profiles;
   std::vector<ControlPoint> control;
   std::vector<TargetObservation> targets;
+  std::vector<RingPoint> ring_points;
   std::optional<Truth> truth;  ///< of a simulated job
   Findings input_findings;
 
@@ -49,6 +50,7 @@ struct JobState {
   /// Where the steps' keys stand: by name of the step.
   std::map<std::string, std::string> keys;
 
+  bool has_scans() const { return !job.scans.empty(); }
   bool has_design() const { return alignment.has_value() && !profiles.empty(); }
   /// Stretch to profile: the job's, or the whole axis.
   JobChainage stretch() const;

@@ -85,9 +85,10 @@ std::uint64_t peak_memory_bytes() {
 
 void write_results(const JobState& state) {
   io::write_file_atomically(state.out / "results.json", io::results_text(state.results));
-  io::write_file_atomically(state.out / "registration.csv", io::registration_csv(state.results));
+  if (state.has_scans()) io::write_file_atomically(state.out / "registration.csv", io::registration_csv(state.results));
   if (state.results.profile) io::write_file_atomically(state.out / "sections.csv", io::sections_csv(state.results));
   if (state.results.volume) io::write_file_atomically(state.out / "volumes.csv", io::volumes_csv(state.results));
+  if (state.results.rings) io::write_file_atomically(state.out / "rings.csv", io::rings_csv(state.results));
 }
 
 void create_folder(const fs::path& folder) {
@@ -122,8 +123,11 @@ bool do_step(JobState& state, const Step& step, const RunOptions& options, Progr
 
 /// Results for people that stand in the folder and belong to a step that is not up to date or no longer wanted.
 Findings stale_files(const JobState& state, const std::vector<Step>& steps, std::size_t first_stale) {
-  const std::map<std::string, const char*> file_of_step{
-      {"surface", "mesh.ply"}, {"profile", "sections.csv"}, {"volume", "volumes.csv"}, {"report", "report.pdf"}};
+  const std::map<std::string, const char*> file_of_step{{"surface", "mesh.ply"},
+                                                        {"profile", "sections.csv"},
+                                                        {"volume", "volumes.csv"},
+                                                        {"rings", "rings.csv"},
+                                                        {"report", "report.pdf"}};
   Findings findings;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (i < first_stale && steps[i].wanted(state)) continue;

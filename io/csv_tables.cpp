@@ -1,5 +1,6 @@
 #include "io/csv_tables.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "core/foundation/angle.h"
@@ -93,6 +94,23 @@ std::string registration_csv(const Results& results) {
            fixed(1e3 * deg_from_rad(scan.sigma.pitch_rad), 2) + "," + fixed(1e3 * deg_from_rad(scan.sigma.yaw_rad), 2) +
            "," + weak + "\n";
   }
+  return csv;
+}
+
+std::string rings_csv(const Results& results) {
+  std::string csv =
+      "ring,chainage_m,station_m,center_east_m,center_north_m,center_elevation_m,horizontal_deviation_m,"
+      "vertical_deviation_m,radius_m,ovality_m,major_clock_deg,rms_m,sigma_center_m,sigma_radius_m,tilt_deg,points\n";
+  if (!results.rings) return csv;
+  const auto known = [](double value, int decimals) {
+    return std::isfinite(value) ? fixed(value, decimals) : std::string();
+  };
+  for (const RingResult& r : results.rings->rings)
+    csv += word(r.ring) + "," + fixed(r.chainage_m, 4) + "," + fixed(r.station_m, 4) + "," + fixed(r.center.x(), 4) +
+           "," + fixed(r.center.y(), 4) + "," + fixed(r.center.z(), 4) + "," + fixed(r.horizontal_deviation_m, 4) +
+           "," + fixed(r.vertical_deviation_m, 4) + "," + fixed(r.radius_m, 4) + "," + known(r.ovality_m, 4) + "," +
+           known(r.major_clock_deg, 1) + "," + fixed(r.rms_m, 4) + "," + known(r.sigma_center_m, 4) + "," +
+           known(r.sigma_radius_m, 4) + "," + fixed(r.tilt_deg, 2) + "," + std::to_string(r.residuals.size()) + "\n";
   return csv;
 }
 

@@ -125,6 +125,25 @@ std::vector<JobRound> read_rounds(const JsonPlace& place) {
   return rounds;
 }
 
+JobRings read_job_rings(const JsonPlace& place, const fs::path& folder) {
+  JobRings rings;
+  if (place.is_text()) {
+    rings.file = existing_file(place, folder);
+    return rings;
+  }
+  place.only_keys({"file", "target_offset", "center", "radius"});
+  rings.file = existing_file(place.at("file"), folder);
+  if (place.has("target_offset")) rings.target_offset_m = place.at("target_offset").number_between(-0.5, 0.5, "m");
+  if (place.has("radius")) rings.design.radius_m = place.at("radius").number_between(0.1, 100.0, "m");
+  if (!place.has("center")) return rings;
+  const auto center = place.at("center").numbers(2);
+  for (const double value : center)
+    if (std::abs(value) > 100.0) place.at("center").refuse("more than 100 m from the axis", "metres are needed");
+  rings.design.center_offset_m = center[0];
+  rings.design.center_height_m = center[1];
+  return rings;
+}
+
 void check_names(const Job& job, const JsonPlace& scans) {
   std::set<std::string> names;
   for (const JobScan& scan : job.scans)
@@ -160,16 +179,19 @@ Job read_job(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const JsonPlace place(root, file.string());
   place.only_keys({"adit", "name", "client", "surveyor", "scans", "control", "targets", "alignment", "alignment_name",
-                   "alignment_start", "profile", "lines", "chainage", "rounds", "options"});
+                   "alignment_start", "profile", "lines", "chainage", "rounds", "rings", "options"});
   if (place.at("adit").whole_number() != 1)
     place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
   Job job;
   job.name = place.text_or("name", fs::weakly_canonical(folder).filename().string());
   job.client = place.text_or("client", "");
   job.surveyor = place.text_or("surveyor", "");
-  for (const JsonPlace& scan : place.at("scans").items()) job.scans.push_back(read_scan(scan, folder));
-  if (job.scans.empty()) place.at("scans").refuse("the job has no scan", "name at least one scan file");
-  check_names(job, place.at("scans"));
+  if (place.has("rings")) job.rings = read_job_rings(place.at("rings"), folder);
+  if (place.has("scans") || !job.rings) {
+    for (const JsonPlace& scan : place.at("scans").items()) job.scans.push_back(read_scan(scan, folder));
+    if (job.scans.empty() && !job.rings) place.at("scans").refuse("the job has no scan", "name at least one scan file");
+    check_names(job, place.at("scans"));
+  }
   if (place.has("control")) job.control = existing_file(place.at("control"), folder);
   if (place.has("targets")) job.targets = existing_file(place.at("targets"), folder);
   if (!job.targets.empty() && job.control.empty())
@@ -231,6 +253,15 @@ std::string job_text(const Job& job) {
     nlohmann::ordered_json one{{"number", round.number}, {"from", round.from_m}, {"to", round.to_m}};
     if (round.drilled_m > 0.0) one["drilled"] = round.drilled_m;
     root["rounds"].push_back(one);
+  }
+  if (job.rings) {
+    nlohmann::ordered_json one{{"file", job.rings->file}};
+    if (job.rings->target_offset_m != 0.0) one["target_offset"] = job.rings->target_offset_m;
+    const RingDesign& design = job.rings->design;
+    if (design.center_offset_m != 0.0 || design.center_height_m != 0.0)
+      one["center"] = {design.center_offset_m, design.center_height_m};
+    if (design.radius_m > 0.0) one["radius"] = design.radius_m;
+    root["rings"] = one;
   }
   if (const json changed = changed_options(job.options); !changed.empty()) root["options"] = changed;
   return root.dump(2) + "\n";

@@ -171,6 +171,28 @@ json volume_json(const Volume& volume) {
   return one;
 }
 
+json ring_json(const RingResult& ring) {
+  json residuals = json::array();
+  for (const RingResidual& residual : ring.residuals)
+    residuals.push_back(
+        {{"point", residual.point}, {"clock_deg", residual.clock_deg}, {"residual_m", residual.residual_m}});
+  return {{"ring", ring.ring},
+          {"center", {ring.center.x(), ring.center.y(), ring.center.z()}},
+          {"chainage", ring.chainage_m},
+          {"station", ring.station_m},
+          {"horizontal_deviation_m", ring.horizontal_deviation_m},
+          {"vertical_deviation_m", ring.vertical_deviation_m},
+          {"radius_m", ring.radius_m},
+          {"ovality_m", number(ring.ovality_m)},
+          {"major_clock_deg", number(ring.major_clock_deg)},
+          {"rms_m", ring.rms_m},
+          {"sigma_center_m", number(ring.sigma_center_m)},
+          {"sigma_radius_m", number(ring.sigma_radius_m)},
+          {"tilt_deg", ring.tilt_deg},
+          {"points", ring.residuals.size()},
+          {"residuals", residuals}};
+}
+
 json mesh_json(const MeshSummary& mesh) {
   return {{"points", mesh.points},
           {"triangles", mesh.triangles},
@@ -221,6 +243,10 @@ std::string results_text(const Results& results) {
       add_members(one, volume_json(round.volume));
       root["rounds"].push_back(one);
     }
+  }
+  if (results.rings) {
+    root["rings"] = json::array();
+    for (const RingResult& ring : results.rings->rings) root["rings"].push_back(ring_json(ring));
   }
   if (results.truth) root["truth"] = truth_json(*results.truth);
   root["findings"] = findings_json(all_findings(results));

@@ -60,6 +60,11 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeResult, lines, rounds, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshSummary, points, triangles, edges, boundary_loops, components, area_m2,
                                    mean_edge_m, longest_loop_m, holes_m, mean_deviation_m, sigma_deviation_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SurfaceResult, mesh, findings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingResidual, point, clock_deg, residual_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingResult, ring, center, chainage_m, station_m, horizontal_deviation_m,
+                                   vertical_deviation_m, radius_m, ovality_m, major_clock_deg, rms_m, sigma_center_m,
+                                   sigma_radius_m, tilt_deg, residuals)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingsResult, rings, findings)
 
 }  // namespace adit
 
@@ -93,6 +98,12 @@ void swap_numbers(SurfaceResult& result, bool writing) {
   swap_number(result.mesh.sigma_deviation_m, writing);
 }
 
+void swap_numbers(RingsResult& result, bool writing) {
+  for (RingResult& ring : result.rings)
+    for (double* value : {&ring.ovality_m, &ring.major_clock_deg, &ring.sigma_center_m, &ring.sigma_radius_m})
+      swap_number(*value, writing);
+}
+
 }  // namespace
 
 std::string step_text(const ImportResult& result) {
@@ -107,6 +118,12 @@ std::string step_text(const RegistrationResult& result) {
 
 std::string step_text(const SurfaceResult& result) {
   SurfaceResult copy = result;
+  swap_numbers(copy, true);
+  return nlohmann::json(copy).dump(1);
+}
+
+std::string step_text(const RingsResult& result) {
+  RingsResult copy = result;
   swap_numbers(copy, true);
   return nlohmann::json(copy).dump(1);
 }
@@ -133,6 +150,11 @@ void read_step_text(const std::string& text, RegistrationResult& result) {
 }
 
 void read_step_text(const std::string& text, SurfaceResult& result) {
+  read(text, result);
+  swap_numbers(result, false);
+}
+
+void read_step_text(const std::string& text, RingsResult& result) {
   read(text, result);
   swap_numbers(result, false);
 }

@@ -22,9 +22,10 @@ int draw_pages(Canvas& canvas, const ReportContent& content, const std::vector<R
     add_pages();
   };
   then([&] { add_title_page(flow, content, views); });
-  then([&] { add_registration_pages(flow, content); });
+  if (!content.results->registration.scans.empty()) then([&] { add_registration_pages(flow, content); });
   then([&] { add_volume_pages(flow, content); });
   then([&] { add_chainage_pages(flow, content); });
+  then([&] { add_ring_pages(flow, content); });
   then([&] { add_map_page(flow, content); });
   then([&] { add_view_pages(flow, views); });
   add_section_pages(flow, content, progress);

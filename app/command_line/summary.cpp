@@ -58,6 +58,16 @@ void add_volumes(std::string& text, const VolumeResult& result) {
   }
 }
 
+void add_rings(std::string& text, const RingsResult& result) {
+  add(text, "\nRings: %zu (deviations of the centre: right and up positive)\n", result.rings.size());
+  add(text, "  %-10s %12s %10s %10s %10s %10s %8s %7s\n", "ring", "chainage", "horizontal", "vertical", "radius",
+      "ovality", "rms", "points");
+  for (const RingResult& ring : result.rings)
+    add(text, "  %-10s %12.3f %7.1f mm %7.1f mm %9.4f m %7.1f mm %5.1f mm %7zu\n", ring.ring.c_str(), ring.chainage_m,
+        1e3 * ring.horizontal_deviation_m, 1e3 * ring.vertical_deviation_m, ring.radius_m, 1e3 * ring.ovality_m,
+        1e3 * ring.rms_m, ring.residuals.size());
+}
+
 /// "-" for what could not be compared.
 std::string signed_number(double value, const char* unit) {
   if (!std::isfinite(value)) return "-";
@@ -90,6 +100,7 @@ std::string summary_text(const JobState& state) {
         results.surface->mesh.boundary_loops, results.surface->mesh.holes_m, results.surface->mesh.area_m2);
   if (results.profile) add(text, "\nSections: %zu\n", results.profile->sections.size());
   if (results.volume) add_volumes(text, *results.volume);
+  if (results.rings) add_rings(text, *results.rings);
   if (results.truth) add_truth(text, *results.truth);
   for (const Finding& finding : all_findings(results)) {
     const char* sign = finding.severity == Severity::decision  ? "TO DECIDE"

@@ -15,7 +15,7 @@ namespace adit::app {
 namespace {
 
 bool wanted(const JobState& state) {
-  return state.has_design() && state.results.registration.in_site;
+  return state.has_scans() && state.has_design() && state.results.registration.in_site;
 }
 
 std::string depends_on(const JobState& state) {

@@ -15,8 +15,8 @@
 namespace adit::app {
 namespace {
 
-bool wanted(const JobState&) {
-  return true;
+bool wanted(const JobState& state) {
+  return state.has_scans();
 }
 
 std::string depends_on(const JobState& state) {

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double beside_m = 3.0;  // points farther outside the design are not of this tunnel
 
-bool wanted(const JobState&) {
-  return true;
+bool wanted(const JobState& state) {
+  return state.has_scans();
 }
 
 std::string depends_on(const JobState& state) {

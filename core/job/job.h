@@ -11,6 +11,7 @@
 #include "core/geometry/pose.h"
 #include "core/job/import_options.h"
 #include "core/profiling/profiling.h"
+#include "core/profiling/rings.h"
 #include "core/registration/registration.h"
 #include "core/surface/surface_options.h"
 
@@ -41,6 +42,13 @@ struct JobChainage {
   double from_m = 0.0;
   double to_m = 0.0;
   double interval_m = 1.0;
+};
+
+/// Rings measured by total station.
+struct JobRings {
+  std::string file;
+  double target_offset_m = 0.0;  ///< of points whose file states none
+  RingDesign design;
 };
 
 struct JobOptions {
@@ -74,6 +82,7 @@ struct Job {
   std::vector<DesignLine> lines{{"excavation", 0.0}};
   std::optional<JobChainage> chainage;
   std::vector<JobRound> rounds;
+  std::optional<JobRings> rings;
   JobOptions options;
 };
 

@@ -10,6 +10,7 @@
 #include "core/foundation/finding.h"
 #include "core/georeference/project_origin.h"
 #include "core/profiling/profiling.h"
+#include "core/profiling/rings.h"
 #include "core/registration/registration.h"
 #include "core/surface/mesh_summary.h"
 
@@ -82,6 +83,7 @@ struct Results {
   std::optional<SurfaceResult> surface;
   std::optional<ProfileResult> profile;
   std::optional<VolumeResult> volume;
+  std::optional<RingsResult> rings;
   std::optional<TruthComparison> truth;
   Findings earlier;  ///< files of earlier runs that do not show these numbers
   std::vector<StepTime> timing;

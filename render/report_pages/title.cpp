@@ -7,8 +7,10 @@ namespace adit::render {
 namespace {
 
 void add_names(PageFlow& flow, const Job& job, const std::string& date, bool compared) {
-  flow.paragraph(compared ? "Tunnel survey: overbreak, underbreak and volumes" : "Tunnel survey: scans in one frame",
-                 colours::grey, 3.2);
+  const char* kind = job.scans.empty() ? "Tunnel survey: rings against the axis"
+                     : compared        ? "Tunnel survey: overbreak, underbreak and volumes"
+                                       : "Tunnel survey: scans in one frame";
+  flow.paragraph(kind, colours::grey, 3.2);
   flow.paragraph(job.name.empty() ? "(no name)" : job.name, colours::ink_blue, 6.4, true);
   std::string who;
   const auto add = [&](const char* label, const std::string& words) {
@@ -30,7 +32,9 @@ void add_status(PageFlow& flow, const Results& results) {
   const Findings findings = all_findings(results);
   const auto decisions = std::count_if(findings.begin(), findings.end(),
                                        [](const Finding& f) { return f.severity == Severity::decision; });
-  std::string words = "ACCEPTED: every scan is placed and every direction is determined";
+  std::string words = results.registration.scans.empty()
+                          ? "ACCEPTED: every ring is fitted"
+                          : "ACCEPTED: every scan is placed and every direction is determined";
   if (!accepted && decisions == 0) words = "NOT ACCEPTED: the registration is not complete";
   if (decisions > 0)
     words = "NOT ACCEPTED: a person must decide (" + std::to_string(decisions) +
@@ -139,7 +143,8 @@ void add_picture(PageFlow& flow, const std::vector<ReportView>& views) {
 }  // namespace
 
 bool is_accepted(const Results& results) {
-  return results.registration.accepted && !needs_a_person(results);
+  const bool rings_alone = results.registration.scans.empty() && results.rings;
+  return (results.registration.accepted || rings_alone) && !needs_a_person(results);
 }
 
 Table findings_table(const Findings& findings) {

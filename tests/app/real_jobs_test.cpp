@@ -4,7 +4,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/cleaning/no_returns.h"
 #include "core/foundation/angle.h"
@@ -106,6 +108,48 @@ TEST(RealJobsData, RoomRegistersToItsKnownPose) {
   EXPECT_NEAR(pose.translation().y(), 0.056, 0.010);
   EXPECT_NEAR(pose.translation().z(), 0.020, 0.010);
   EXPECT_NEAR(deg_from_rad(yaw_pitch_roll(pose).yaw_rad), 40.8, 0.2);
+}
+
+/// Rings of a metro tunnel as they were published, by name: centre, chainage, deviations, radius [m].
+std::map<std::string, std::vector<double>> published_rings(const std::filesystem::path& file) {
+  std::map<std::string, std::vector<double>> rings;
+  std::ifstream lines(file);
+  std::string line;
+  std::getline(lines, line);  // header
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::string name, number;
+    std::getline(fields, name, ',');
+    while (std::getline(fields, number, ',')) rings[name.substr(1)].push_back(std::stod(number));  // "R12"
+  }
+  return rings;
+}
+
+TEST(RealJobsData, RingsOfAMetroTunnelMeetWhatWasPublished) {
+  ADIT_NEED_REAL_DATA();
+  const std::filesystem::path source = tests::real_data() / "rings" / "wriggle_metro_bangkok";
+  const TemporaryFolder folder;
+  for (const char* name : {"derived_axis.csv", "derived_points.csv"})
+    std::filesystem::copy_file(source / name, folder / name);
+  folder.write("job.json", R"({"adit": 1, "alignment": "derived_axis.csv", "rings": "derived_points.csv"})");
+  const auto state = tests::run(folder / "job.json");
+  const auto published = published_rings(source / "derived_result.csv");
+  ASSERT_EQ(state->results.rings->rings.size(), 46U);
+  EXPECT_EQ(published.size(), 46U);
+  for (const RingResult& ring : state->results.rings->rings) {
+    const std::vector<double>& p = published.at(ring.ring);
+    EXPECT_LT((ring.center - Eigen::Vector3d(p[0], p[1], p[2])).norm(), 0.0035) << ring.ring;
+    EXPECT_NEAR(ring.chainage_m, p[3], 0.0035) << ring.ring;
+    EXPECT_NEAR(ring.horizontal_deviation_m, p[4], 0.0005) << ring.ring;
+    EXPECT_NEAR(ring.vertical_deviation_m, p[5], 0.0005) << ring.ring;
+    EXPECT_NEAR(ring.radius_m, p[6], 0.0005) << ring.ring;
+  }
+  EXPECT_FALSE(needs_a_person(state->results));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/report.pdf"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/rings.csv"));
+  const auto again = tests::run(folder / "job.json");  // taken up, with its numbers that are none
+  EXPECT_EQ(again->results.rings->rings.size(), 46U);
+  EXPECT_TRUE(again->results.timing.at(1).fresh);
 }
 
 }  // namespace
