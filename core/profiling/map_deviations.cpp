@@ -102,8 +102,49 @@ std::vector<Entry> rock_points(const Entry* begin, const Entry* end, const Profi
   return {};
 }
 
-/// Mean over the thickness of the slice: every point stands for the stretch of chainage that is nearest to it, so that
-/// the many points on a step's face weigh no more than the little chainage they cover.
+/// The deviation nearest to `wanted` among the points from `i` on (step 1) or back (step -1) that stand at one place
+/// with it. The face of a step has points of every depth at one place; the surface that a gap hides goes on to the
+/// nearest of them.
+double continued(const std::vector<Entry>& rock, std::ptrdiff_t i, std::ptrdiff_t step, double wanted) {
+  constexpr float one_place = 0.05F;
+  double best = static_cast<double>(rock[static_cast<std::size_t>(i)].deviation_m);
+  for (std::ptrdiff_t k = i; k >= 0 && k < static_cast<std::ptrdiff_t>(rock.size()); k += step) {
+    const Entry& entry = rock[static_cast<std::size_t>(k)];
+    if (std::abs(entry.place - rock[static_cast<std::size_t>(i)].place) > one_place) break;
+    const double deviation = static_cast<double>(entry.deviation_m);
+    if (std::abs(deviation - wanted) < std::abs(best - wanted)) best = deviation;
+  }
+  return best;
+}
+
+/// Mean over the thickness of the slice of rock sorted by place: every point stands for the stretch of chainage that is
+/// nearest to it, so that the many points on a step's face weigh no more than the little chainage they cover.
+double mean_over_slice(const std::vector<Entry>& rock) {
+  constexpr float wide_gap = 0.05F;
+  double sum = static_cast<double>(rock.front().place) * static_cast<double>(rock.front().deviation_m) +
+               static_cast<double>(1.0F - rock.back().place) * static_cast<double>(rock.back().deviation_m);
+  for (std::size_t i = 0; i + 1 < rock.size(); ++i) {
+    const float gap = rock[i + 1].place - rock[i].place;
+    double before = static_cast<double>(rock[i].deviation_m), behind = static_cast<double>(rock[i + 1].deviation_m);
+    if (gap > wide_gap) {
+      const auto at = static_cast<std::ptrdiff_t>(i);
+      behind = continued(rock, at + 1, 1, before);
+      before = continued(rock, at, -1, behind);
+    }
+    sum += 0.5 * static_cast<double>(gap) * (before + behind);
+  }
+  return sum;
+}
+
+/// Points of many depths at one place of the thickness: the face of a step, seen where the rock beside it is not.
+bool is_face_alone(const std::vector<Entry>& rock, double surface_band_m) {
+  constexpr float thin = 0.3F;
+  if (rock.back().place - rock.front().place > thin) return false;
+  const auto [low, high] = std::minmax_element(
+      rock.begin(), rock.end(), [](const Entry& a, const Entry& b) { return a.deviation_m < b.deviation_m; });
+  return high->deviation_m - low->deviation_m > static_cast<float>(surface_band_m);
+}
+
 MapCell surface_cell(const Entry* begin, const Entry* end, const ProfilingOptions& options) {
   MapCell cell;
   std::vector<Entry> rock = rock_points(begin, end, options);
@@ -111,15 +152,11 @@ MapCell surface_cell(const Entry* begin, const Entry* end, const ProfilingOption
   std::sort(rock.begin(), rock.end(), [](const Entry& a, const Entry& b) {
     return a.place != b.place ? a.place < b.place : a.deviation_m < b.deviation_m;
   });
-  double sum = 0.0;
+  if (is_face_alone(rock, options.surface_band_m)) return cell;
   std::vector<double> values;
-  for (std::size_t i = 0; i < rock.size(); ++i) {
-    const float from = i == 0 ? 0.0F : 0.5F * (rock[i - 1].place + rock[i].place);
-    const float to = i + 1 == rock.size() ? 1.0F : 0.5F * (rock[i].place + rock[i + 1].place);
-    values.push_back(static_cast<double>(rock[i].deviation_m));
-    sum += static_cast<double>(to - from) * values.back();
-  }
-  cell.deviation_m = static_cast<float>(sum);
+  values.reserve(rock.size());
+  for (const Entry& entry : rock) values.push_back(static_cast<double>(entry.deviation_m));
+  cell.deviation_m = static_cast<float>(mean_over_slice(rock));
   cell.spread_m = static_cast<float>(robust_sigma(values));
   cell.count = static_cast<std::uint32_t>(values.size());
   cell.kind = CellKind::measured;

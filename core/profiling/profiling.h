@@ -15,7 +15,7 @@ namespace adit {
 struct ProfilingOptions {
   double slice_m = 0.10;              ///< thickness of a slice along the chainage
   double cell_m = 0.10;               ///< width of a cell along the design line
-  double gap_m = 1.0;                 ///< gaps of the outline up to this are interpolated and counted apart
+  double gap_m = 1.5;                 ///< gaps of the outline up to this are interpolated and counted apart
   double reach_out_m = 3.0;           ///< points farther outside the line are not of this tunnel
   double reach_in_m = 0.6;            ///< points farther inside the line are equipment, people or muck, not rock
   double surface_band_m = 0.10;       ///< points this close behind one another are one surface

@@ -1,0 +1,166 @@
+// Volumes of simulated tunnels against their exact truth, and the way to chainage and back on a real axis.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/design/transition_curve.h"
+#include "core/foundation/parallel.h"
+#include "core/foundation/random.h"
+#include "core/profiling/profiling.h"
+#include "io/read_axis.h"
+#include "tests/bench/bench.h"
+
+namespace adit::bench {
+namespace {
+
+constexpr double axis_length_m = 140.0;
+constexpr double from_m = 30.0, to_m = 60.0, first_station_m = 25.0, station_spacing_m = 8.0;
+constexpr int stations = 6;
+constexpr std::uint64_t pulses = 1000000;
+constexpr double end_area_interval_m = 5.0;
+
+struct Scenario {
+  const char* name;
+  HorizontalKind kind = HorizontalKind::line;
+  double start_curvature_per_m = 0.0, end_curvature_per_m = 0.0;
+  double grade = 0.0;
+  double vertical_radius_m = 0.0;
+  double roughness_m = 0.045;
+  double collar_m = 0.06, toe_m = 0.38;
+  double floor_m = -0.04;
+};
+
+/// Overbreak shares: look-out and roughness grow together.
+const Scenario scenarios[] = {
+    {.name = "straight"},
+    {.name = "R = 120 m",
+     .kind = HorizontalKind::arc,
+     .start_curvature_per_m = 1 / 120.0,
+     .end_curvature_per_m = 1 / 120.0},
+    {.name = "clothoid to R = 80 m left", .kind = HorizontalKind::clothoid, .end_curvature_per_m = -1 / 80.0},
+    {.name = "grade 10 %", .grade = 0.10},
+    {.name = "vertical curve, R = 500 m", .grade = 0.08, .vertical_radius_m = 500.0},
+    {.name = "hardly any overbreak", .roughness_m = 0.01, .collar_m = 0.0, .toe_m = 0.02},
+    {.name = "no look-out", .collar_m = 0.15, .toe_m = 0.15},
+    {.name = "15 %", .roughness_m = 0.08, .collar_m = 0.15, .toe_m = 0.55},
+    {.name = "30 %", .roughness_m = 0.12, .collar_m = 0.40, .toe_m = 0.90},
+};
+
+Alignment axis_of(const Scenario& scenario) {
+  HorizontalElement element;
+  element.kind = scenario.kind;
+  element.azimuth_rad = 0.5;
+  element.length_m = axis_length_m;
+  element.start_curvature_per_m = scenario.start_curvature_per_m;
+  element.end_curvature_per_m = scenario.end_curvature_per_m;
+  std::vector<VerticalPoint> grade{{0.0, 0.0}, {axis_length_m, scenario.grade * axis_length_m}};
+  if (scenario.vertical_radius_m > 0.0)
+    grade = {{0.0, 0.0},
+             {45.0, 45.0 * scenario.grade, VerticalCurveKind::circle, 0.0, scenario.vertical_radius_m},
+             {axis_length_m, 45.0 * scenario.grade}};
+  return {"simulated", HorizontalAlignment({element}, 0.0), VerticalAlignment(std::move(grade))};
+}
+
+RockTunnel rock_of(const Scenario& scenario, std::uint64_t seed) {
+  RockTunnelOptions options;
+  options.seed = seed;
+  options.from_m = 1.0;
+  options.face_m = 100.0;
+  options.clutter = false;
+  options.roughness_sigma_m = scenario.roughness_m;
+  options.lookout_collar_m = scenario.collar_m;
+  options.lookout_toe_m = scenario.toe_m;
+  options.floor_mean_m = scenario.floor_m;
+  return {DesignTunnel(axis_of(scenario), {{0.0, tests::arch_profile()}}, {{"excavation", 0.0}}), options};
+}
+
+double percent_off(double value, double truth) {
+  return 100.0 * (value / truth - 1.0);
+}
+
+void bench_scenario(const Scenario& scenario, std::uint64_t seed) {
+  Progress progress;
+  const RockTunnel rock = rock_of(scenario, seed);
+  std::vector<PlacedTiles> scans;
+  for (int i = 0; i < stations; ++i) {
+    const Pose pose = tests::station(rock.design(), first_station_m + station_spacing_m * i, 70.0 * i);
+    PointCloud cloud = tests::scan_at(rock, pose, 100 * seed + static_cast<std::uint64_t>(i), pulses);
+    scans.push_back({"S" + std::to_string(i), std::make_shared<CloudTiles>(std::move(cloud)), pose});
+  }
+  const MapResult map = map_deviations(scans, rock.design(), from_m, to_m, {}, progress);
+  const Volume volume =
+      compute_volume(map.map, rock.design(), {"excavation", 0.0}, from_m, to_m, end_area_interval_m, {}, {}, progress);
+  const VolumeAmounts truth = true_volume(rock, from_m, to_m, progress);
+  const double two_sigmas = 200.0 * volume.sigma_overbreak_m3 / truth.overbreak_m3;
+  std::printf("| %s | %.1f %% | %.2f | %+.3f | %.2f | %+.4f | %.1f | %+.2f | %+.2f |\n", scenario.name,
+              100.0 * truth.overbreak_m3 / truth.design_m3, truth.overbreak_m3,
+              percent_off(volume.slices.overbreak_m3, truth.overbreak_m3), two_sigmas,
+              percent_off(volume.slices.excavated_m3, truth.excavated_m3), 100.0 * volume.coverage,
+              percent_off(volume.average_end_area.overbreak_m3, truth.overbreak_m3),
+              percent_off(volume.prismoidal.overbreak_m3, truth.overbreak_m3));
+  std::fflush(stdout);
+}
+
+/// (s, x, z) -> site -> (s, x, z) on random places beside a real axis.
+void bench_round_trip(const std::filesystem::path& file, const std::string& name) {
+  constexpr std::size_t points = 100000;
+  const Alignment axis = io::choose_alignment(io::read_axis(file), name);
+  const Random random(1, 1);
+  std::vector<TunnelPoint> places(points);
+  std::vector<Eigen::Vector3d> site(points);
+  std::vector<double> off(points);
+  for (std::size_t i = 0; i < points; ++i)
+    places[i] = {random.uniform(3 * i, axis.from_m(), axis.to_m()), random.uniform(3 * i + 1, -8.0, 8.0),
+                 random.uniform(3 * i + 2, -2.0, 8.0)};
+  constexpr std::size_t block = 1000;
+  const auto each = [&](const auto& work) {
+    parallel_for_each_index(
+        points / block,
+        [&](std::size_t b) {
+          for (std::size_t i = b * block; i < (b + 1) * block; ++i) work(i);
+        },
+        1);
+  };
+  const double there = seconds_of(3, [&] { each([&](std::size_t i) { site[i] = axis.to_site(places[i]); }); });
+  const double back = seconds_of(3, [&] {
+    each([&](std::size_t i) {
+      const auto at = axis.to_tunnel(site[i], places[i].s_m + 1.5);
+      off[i] = at ? std::hypot(at->s_m - places[i].s_m, at->x_m - places[i].x_m, at->z_m - places[i].z_m) : 1e9;
+    });
+  });
+  std::size_t beyond = 0, none = 0;
+  double worst = 0.0;
+  for (const double distance : off) {
+    if (distance > 1e8)
+      ++none;
+    else if (distance > 1e-5)
+      ++beyond;
+    if (distance < 1e-5) worst = std::max(worst, distance);
+  }
+  std::printf(
+      "\n100,000 random places within 8 m of %s, %s: there %.1f, back %.1f, both ways %.2f million points/s; "
+      "%zu at joints of the file (gaps up to 0.77 mm), %zu without a foot, the rest within %.1e m.\n",
+      file.filename().c_str(), name.c_str(), 1e-6 * points / there, 1e-6 * points / back,
+      1e-6 * points / (there + back), beyond, none, worst);
+}
+
+}  // namespace
+
+void bench_profiles() {
+  std::printf(
+      "\n### Volumes against the truth\n\n%d stations %.0f m apart, %.1f million pulses each, exact poses, 30 m of "
+      "tunnel, rounds of 4 m; walls of 2 m under a half circle of 4 m.\n\n",
+      stations, station_spacing_m, 1e-6 * pulses);
+  std::printf(
+      "| tunnel | overbreak of design | overbreak m3 | error %% | 2 sigma %% | excavated error %% | measured %% | "
+      "end areas every 5 m: error %% | prismoidal %% |\n|---|---|---|---|---|---|---|---|---|\n");
+  std::uint64_t seed = 1;
+  for (const Scenario& scenario : scenarios) bench_scenario(scenario, seed++);
+  const std::filesystem::path real = "../shared/data/axis-sbb.xml";
+  if (std::filesystem::exists(real))
+    bench_round_trip(real, "A50034A");
+  else
+    std::printf("\nreal axis absent: %s\n", real.c_str());
+}
+
+}  // namespace adit::bench
