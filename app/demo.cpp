@@ -251,7 +251,9 @@ Job demo_job(const Demo& demo, const std::vector<Pose>& poses) {
     job.targets = "targets.csv";
   }
   job.alignment = "axis.xml";
-  job.profiles.push_back({axis_start_m, "profile.dxf", ""});
+  job.profiles.emplace_back();
+  job.profiles.back().from_m = axis_start_m;
+  job.profiles.back().file = "profile.dxf";
   job.lines = {{"excavation", 0.0}, {"pay", 0.25}};
   job.chainage = demo.stretch;
   int number = 100;

@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 std::vector<std::string> files_of(const Job& job) {
   std::vector<std::string> files;
   for (const JobScan& scan : job.scans) files.push_back(scan.file);
-  for (const JobProfile& profile : job.profiles) files.push_back(profile.file);
+  for (const JobProfile& profile : job.profiles)
+    if (!profile.file.empty()) files.push_back(profile.file);
   if (job.rings) files.push_back(job.rings->file);
   for (const std::string* file : {&job.control, &job.targets, &job.alignment})
     if (!file->empty()) files.push_back(*file);
@@ -102,6 +103,16 @@ JobChainage JobState::stretch() const {
   return {alignment->from_m(), alignment->to_m(), 1.0};
 }
 
+std::string JobState::profiles_text() const {
+  std::string text;
+  for (const JobProfile& profile : job.profiles) {
+    text += "|" + (profile.library.empty() ? input_sha256.at(profile.file) : "library " + profile.library) +
+            profile.layer + short_number(profile.from_m) + (profile.interpolated ? " to next" : "");
+    for (const auto& [name, size] : profile.sizes) text += " " + name + "=" + short_number(size);
+  }
+  return text;
+}
+
 JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progress) {
   const fs::path file = fs::is_directory(job_file) ? job_file / "job.json" : job_file;
   JobState state;
@@ -111,7 +122,11 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
   state.out = out.empty() ? state.folder / "out" : out;
   read_alignment(state);
   for (const JobProfile& profile : state.job.profiles)
-    state.profiles.push_back({profile.from_m, io::read_profile(state.folder / profile.file, profile.layer)});
+    state.profiles.push_back({profile.from_m,
+                              profile.library.empty()
+                                  ? io::read_profile(state.folder / profile.file, profile.layer, profile.sizes)
+                                  : io::library_profile(profile.library, profile.sizes),
+                              profile.interpolated});
   read_control(state);
   read_rings(state);
   if (!state.job.targets.empty()) state.targets = io::read_targets_csv(state.folder / state.job.targets);

@@ -52,6 +52,8 @@ struct JobState {
 
   bool has_scans() const { return !job.scans.empty(); }
   bool has_design() const { return alignment.has_value() && !profiles.empty(); }
+  /// All that the design's profiles depend on, for the keys of steps.
+  std::string profiles_text() const;
   /// Stretch to profile: the job's, or the whole axis.
   JobChainage stretch() const;
 };

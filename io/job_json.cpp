@@ -60,21 +60,36 @@ JobScan read_scan(const JsonPlace& place, const fs::path& folder) {
 std::vector<JobProfile> read_profiles(const JsonPlace& place, const fs::path& folder) {
   std::vector<JobProfile> profiles;
   if (place.is_text()) {
-    profiles.push_back({0.0, existing_file(place, folder), ""});
+    profiles.emplace_back();
+    profiles.back().file = existing_file(place, folder);
     profiles.back().from_m = -1e9;
     return profiles;
   }
   const std::vector<JsonPlace> places = place.is_object() ? std::vector<JsonPlace>{place} : place.items();
   for (const JsonPlace& one : places) {
-    one.only_keys({"file", "layer", "from"});
+    one.only_keys({"file", "layer", "library", "sizes", "from", "to_next"});
     JobProfile profile;
-    profile.file = existing_file(one.at("file"), folder);
+    if (one.has("file") == one.has("library"))
+      one.refuse("a profile is a \"file\" or one of the \"library\"", "write one of the two");
+    if (one.has("file")) profile.file = existing_file(one.at("file"), folder);
+    profile.library = one.text_or("library", "");
+    if (one.has("sizes"))
+      for (const std::string& name : one.at("sizes").keys())
+        profile.sizes[name] = one.at("sizes").at(name).number_between(-1000.0, 1000.0, "m");
+    if (one.has("to_next")) {
+      const std::string way = one.at("to_next").text();
+      if (way != "stepped" && way != "interpolated")
+        one.at("to_next").refuse("unknown word", "write stepped or interpolated");
+      profile.interpolated = way == "interpolated";
+    }
     profile.layer = one.text_or("layer", "");
     profile.from_m = one.number_or("from", -1e9);
     if (!profiles.empty() && profile.from_m <= profiles.back().from_m)
       one.refuse("profiles must stand in order of \"from\"", "give every profile but the first a larger \"from\"");
     profiles.push_back(profile);
   }
+  if (!profiles.empty() && profiles.back().interpolated)
+    places.back().refuse("nothing follows the last profile", "leave its \"to_next\" out");
   if (profiles.empty()) place.refuse("at least one profile is needed", "name a file");
   return profiles;
 }
@@ -240,7 +255,11 @@ std::string job_text(const Job& job) {
   if (!job.alignment_name.empty()) root["alignment_name"] = job.alignment_name;
   if (job.alignment_start_m) root["alignment_start"] = *job.alignment_start_m;
   for (const JobProfile& profile : job.profiles) {
-    nlohmann::ordered_json one{{"file", profile.file}};
+    nlohmann::ordered_json one;
+    if (!profile.file.empty()) one["file"] = profile.file;
+    if (!profile.library.empty()) one["library"] = profile.library;
+    for (const auto& [name, size] : profile.sizes) one["sizes"][name] = size;
+    if (profile.interpolated) one["to_next"] = "interpolated";
     if (!profile.layer.empty()) one["layer"] = profile.layer;
     if (profile.from_m > -1e9) one["from"] = profile.from_m;
     root["profile"].push_back(one);

@@ -5,11 +5,13 @@
 #include <string>
 
 #include "core/design/profile.h"
+#include "io/profile_json.h"
 
 namespace adit::io {
 
-/// By ending: .csv and .txt as a table of points, .dxf as a drawing, whose `layer` may be named. Throws Error for other
-/// endings and for what the readers refuse.
-Profile read_profile(const std::filesystem::path& file, const std::string& layer = {});
+/// By ending: .csv and .txt as a table of points, .dxf as a drawing, whose `layer` may be named, .json as lines and
+/// arcs, whose `sizes` may be given. Throws Error for other endings, for a layer or sizes that the format does not
+/// have, and for what the readers refuse.
+Profile read_profile(const std::filesystem::path& file, const std::string& layer = {}, const ProfileSizes& sizes = {});
 
 }  // namespace adit::io

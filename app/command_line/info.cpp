@@ -11,6 +11,7 @@
 #include "app/run_job.h"
 #include "core/foundation/error.h"
 #include "io/control_csv.h"
+#include "io/json_place.h"
 #include "io/kof.h"
 #include "io/read_axis.h"
 #include "io/read_profile.h"
@@ -194,6 +195,8 @@ json info(const fs::path& file, Progress& progress) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending == ".json" && !fs::is_directory(file) && io::parse_json_file(file).contains("pieces"))
+    return profile_info(file);
   if (fs::is_directory(file) || ending == ".json") return job_info(file, progress);
   if (ending == ".xml" || ending == ".landxml" || ending == ".ifc") return axis_info(file);
   if (ending == ".kof") return kof_info(file);

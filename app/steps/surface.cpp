@@ -29,8 +29,7 @@ std::string depends_on(const JobState& state) {
   for (const double limit : {limits.reach_in_m, limits.least_range_m, limits.most_range_m})
     text += "|" + short_number(limit);
   if (!state.has_design()) return text;
-  for (const JobProfile& profile : state.job.profiles)
-    text += "|" + state.input_sha256.at(profile.file) + profile.layer + short_number(profile.from_m);
+  text += state.profiles_text();
   const JobChainage stretch = state.stretch();
   return text + "|" + short_number(stretch.from_m) + "|" + short_number(stretch.to_m);
 }

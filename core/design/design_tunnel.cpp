@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/design/profile_blend.h"
 #include "core/foundation/error.h"
 #include "core/foundation/options.h"
 
@@ -15,12 +16,36 @@ void check_profiles(const std::vector<ProfileFrom>& profiles) {
   for (std::size_t i = 0; i < profiles.size(); ++i) {
     if (profiles[i].profile.segments().empty()) throw Error("the design holds a profile without a line");
     if (!std::isfinite(profiles[i].from_m)) throw Error("a profile holds from a chainage that is not finite");
+    if (profiles[i].interpolated && i + 1 == profiles.size())
+      throw Error("the last profile changes into the next one, and there is none", {}, "let it hold as it is");
     if (i > 0 && profiles[i].from_m <= profiles[i - 1].from_m) {
       throw Error("profile " + profiles[i].profile.name() + " holds from chainage " + short_number(profiles[i].from_m) +
                       ", which is not behind the one before it (" + short_number(profiles[i - 1].from_m) + ")",
                   {}, "list the profiles in order of chainage");
     }
   }
+}
+
+/// Every stretch that changes as steps so small that nobody sees them.
+std::vector<ProfileFrom> stepped(const std::vector<ProfileFrom>& profiles) {
+  constexpr double shortest_step_m = 0.1, change_m = 0.001;
+  std::vector<ProfileFrom> steps;
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    if (!profiles[i].interpolated) {
+      steps.push_back(profiles[i]);
+      continue;
+    }
+    const ProfileFrom &from = profiles[i], &to = profiles.at(i + 1);
+    const double length_m = to.from_m - from.from_m;
+    const double wanted = std::min(length_m / shortest_step_m, blend_distance_m(from.profile, to.profile) / change_m);
+    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(wanted)));
+    for (std::size_t k = 0; k < n; ++k) {
+      const double begin = static_cast<double>(k) / static_cast<double>(n);
+      const double middle = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+      steps.push_back({from.from_m + begin * length_m, blended_profile(from.profile, to.profile, middle)});
+    }
+  }
+  return steps;
 }
 
 void check_lines(const std::vector<DesignLine>& lines) {
@@ -39,6 +64,7 @@ DesignTunnel::DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profile
     : alignment_(std::move(alignment)), profiles_(std::move(profiles)), lines_(std::move(lines)) {
   check_profiles(profiles_);
   check_lines(lines_);
+  profiles_ = stepped(profiles_);
 }
 
 const Profile& DesignTunnel::profile_at(double chainage_m) const {

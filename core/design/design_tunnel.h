@@ -16,16 +16,19 @@ struct DesignLine {
   bool operator==(const DesignLine&) const = default;
 };
 
-/// A profile and the chainage it holds from (stepped: it holds up to the next one).
+/// A profile and the chainage it holds from: up to the next one, or, interpolated, changing evenly into it.
 struct ProfileFrom {
   double from_m = 0.0;
   Profile profile;
+  bool interpolated = false;
 };
 
 class DesignTunnel {
  public:
   DesignTunnel() = default;
-  /// Throws Error when there is no profile, no line, two lines of one name, or profiles are not in order of chainage.
+  /// Interpolated stretches become profiles every 0.1 m, or where the profile has changed by a millimetre. Throws Error
+  /// when there is no profile, no line, two lines of one name, profiles are not in order of chainage, or the last one
+  /// is interpolated.
   DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profiles, std::vector<DesignLine> lines);
 
   const Alignment& alignment() const { return alignment_; }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,10 +26,14 @@ struct JobScan {
   YawPitchRoll angles;
 };
 
+/// A file, or a profile of the library.
 struct JobProfile {
   double from_m = 0.0;
   std::string file;
-  std::string layer;  ///< of a DXF; empty: the only closed line
+  std::string layer;                    ///< of a DXF; empty: the only closed line
+  std::string library;                  ///< its name, when there is no file
+  std::map<std::string, double> sizes;  ///< of the library's profile, or of a JSON file
+  bool interpolated = false;            ///< up to the next profile, instead of stepped
 };
 
 struct JobRound {

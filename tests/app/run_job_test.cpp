@@ -182,7 +182,10 @@ TEST(JobText, ReadsBackWhatItWrote) {
   job.control = "c.csv";
   job.targets = "t.csv";
   job.alignment = "x.xml";
-  job.profiles.push_back({-1e9, "p.dxf", "layer"});
+  job.profiles.emplace_back();
+  job.profiles.back().from_m = -1e9;
+  job.profiles.back().file = "p.dxf";
+  job.profiles.back().layer = "layer";
   job.lines = {{"a", 0.0}, {"b", 0.3}};
   job.chainage = JobChainage{10.0, 20.5, 0.5};
   job.rounds.push_back({7, 10.0, 14.0, 4.2});

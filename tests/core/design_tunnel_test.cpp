@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/design/profile_blend.h"
 #include "core/foundation/error.h"
 #include "tests/core/profile_shapes.h"
 
@@ -42,6 +43,36 @@ TEST(Design, RefusesAnIncompleteOrDisorderlyDesign) {
   EXPECT_THROW(DesignTunnel(straight(), {{0, Profile()}}, {{}}), Error);
   EXPECT_THROW(DesignTunnel(straight(), {{50, named("a", 2)}, {10, named("b", 2)}}, {{}}), Error);
   EXPECT_THROW(DesignTunnel(straight(), {{0, named("a", 2)}}, {{"pay", 0.0}, {"pay", 0.2}}), Error);
+}
+
+Profile box(double width, double height) {
+  return {"box",
+          {{{-width / 2, 0}, {-width / 2, height}, 0},
+           {{-width / 2, height}, {width / 2, height}, 0},
+           {{width / 2, height}, {width / 2, 0}, 0},
+           {{width / 2, 0}, {-width / 2, 0}, 0}}};
+}
+
+TEST(DesignTunnelBlend, LikeProfilesChangeEvenly) {
+  const DesignTunnel tunnel(straight(), {{0, box(4, 3)}, {20, box(4, 3), true}, {30, box(6, 4)}}, {{"line", 0}});
+  EXPECT_NEAR(tunnel.profile_at(10).area_m2(), 12, 1e-9);
+  EXPECT_NEAR(tunnel.profile_at(40).area_m2(), 24, 1e-9);
+  for (const double s : {20.5, 25.0, 29.2}) {
+    const double share = (s - 20) / 10;
+    EXPECT_NEAR(tunnel.profile_at(s).area_m2(), (4 + 2 * share) * (3 + share), 0.1) << s;
+    EXPECT_EQ(tunnel.profile_at(s).segments().size(), tunnel.profile_at(10).segments().size());
+  }
+  EXPECT_THROW(DesignTunnel(straight(), {{0, box(4, 3), true}}, {{"line", 0}}), Error);
+}
+
+TEST(DesignTunnelBlend, UnlikeProfilesMeetBothEnds) {
+  const Profile circle("circle", {{{-3, 0}, {3, 0}, -1}, {{3, 0}, {-3, 0}, -1}});
+  const Profile rectangle = box(6, 6);
+  EXPECT_NEAR(blended_profile(circle, rectangle, 0.0).area_m2(), circle.area_m2(), 0.01);
+  EXPECT_NEAR(blended_profile(circle, rectangle, 1.0).area_m2(), 36.0, 1e-6);
+  const double half = blended_profile(circle, rectangle, 0.5).area_m2();
+  EXPECT_GT(half, circle.area_m2());
+  EXPECT_LT(half, 36.0);
 }
 
 }  // namespace
