@@ -44,8 +44,8 @@ void expect_inputs_apart(const JobState& state, const std::vector<std::string>& 
     const auto refuse = [&] {
       throw Error("a run would write over this input", input.string(), "move it, or choose another folder with --out");
     };
-    for (const char* name : {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "rings.csv", "results.json",
-                             "report.pdf", ".lock"})
+    for (const char* name : {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "sectors.csv", "rings.csv",
+                             "results.json", "report.pdf", ".lock"})
       if (real(state.out / name) == input) refuse();
     for (const char* name : {"import", "steps", "report", "figures"}) {
       const fs::path below = input.lexically_relative(real(state.out / name));

@@ -88,6 +88,7 @@ void write_results(const JobState& state) {
   if (state.has_scans()) io::write_file_atomically(state.out / "registration.csv", io::registration_csv(state.results));
   if (state.results.profile) io::write_file_atomically(state.out / "sections.csv", io::sections_csv(state.results));
   if (state.results.volume) io::write_file_atomically(state.out / "volumes.csv", io::volumes_csv(state.results));
+  if (state.results.volume) io::write_file_atomically(state.out / "sectors.csv", io::sectors_csv(state.results));
   if (state.results.rings) io::write_file_atomically(state.out / "rings.csv", io::rings_csv(state.results));
 }
 

@@ -97,6 +97,28 @@ std::string registration_csv(const Results& results) {
   return csv;
 }
 
+std::string sectors_csv(const Results& results) {
+  std::string csv =
+      "stretch,line,line_offset_m,from_m,to_m,sector,surface_m2,coverage,overbreak_m3,underbreak_m3,mean_overbreak_m,"
+      "max_overbreak_m,max_overbreak_chainage_m,max_overbreak_clock_deg\n";
+  if (!results.volume) return csv;
+  const auto add = [&](const std::string& stretch, const Volume& volume) {
+    for (const SectorVolume& s : volume.sectors) {
+      const double surface_m2 = s.surface_m2 > 0.0 ? s.surface_m2 : 1.0;
+      csv += stretch + "," + word(volume.line) + "," + fixed(volume.line_offset_m, 4) + "," + fixed(volume.from_m, 3) +
+             "," + fixed(volume.to_m, 3) + "," + word(s.name) + "," + fixed(s.surface_m2, 3) + "," +
+             fixed(s.measured_m2 / surface_m2, 4) + "," + fixed(s.overbreak_m3, 4) + "," + fixed(s.underbreak_m3, 4) +
+             "," + fixed(s.overbreak_m3 / surface_m2, 4) + "," + fixed(s.max_overbreak_m, 4) + ",";
+      csv += s.max_overbreak_m > 0.0
+                 ? fixed(s.max_overbreak_chainage_m, 3) + "," + fixed(s.max_overbreak_clock_deg, 1) + "\n"
+                 : std::string(",\n");
+    }
+  };
+  for (const Volume& volume : results.volume->lines) add("total", volume);
+  for (const RoundVolume& round : results.volume->rounds) add("round " + std::to_string(round.number), round.volume);
+  return csv;
+}
+
 std::string rings_csv(const Results& results) {
   std::string csv =
       "ring,chainage_m,station_m,center_east_m,center_north_m,center_elevation_m,horizontal_deviation_m,"

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/foundation/angle.h"
+#include "core/foundation/error.h"
 #include "io/json_place.h"
 #include "io/options_json.h"
 #include "io/text_place.h"
@@ -140,6 +141,21 @@ std::vector<JobRound> read_rounds(const JsonPlace& place) {
   return rounds;
 }
 
+std::vector<Sector> read_sectors(const JsonPlace& place) {
+  std::vector<Sector> sectors;
+  for (const JsonPlace& one : place.items()) {
+    one.only_keys({"name", "from_deg", "to_deg"});
+    sectors.push_back({one.at("name").text(), one.at("from_deg").number_between(-180.0, 180.0, "degrees"),
+                       one.at("to_deg").number_between(-180.0, 180.0, "degrees")});
+  }
+  try {
+    check_sectors(sectors);
+  } catch (const Error& error) {
+    place.refuse(error.what_is_wrong(), error.mend());
+  }
+  return sectors;
+}
+
 JobRings read_job_rings(const JsonPlace& place, const fs::path& folder) {
   JobRings rings;
   if (place.is_text()) {
@@ -194,7 +210,8 @@ Job read_job(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const JsonPlace place(root, file.string());
   place.only_keys({"adit", "name", "client", "surveyor", "scans", "control", "targets", "alignment", "alignment_name",
-                   "alignment_start", "profile", "lines", "chainage", "rounds", "rings", "options"});
+                   "alignment_start", "profile", "lines", "chainage", "rounds", "sectors", "swell", "rings",
+                   "options"});
   if (place.at("adit").whole_number() != 1)
     place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
   Job job;
@@ -218,6 +235,8 @@ Job read_job(const fs::path& file) {
   if (place.has("lines")) job.lines = read_lines(place.at("lines"));
   if (place.has("chainage")) job.chainage = read_chainage(place.at("chainage"));
   if (place.has("rounds")) job.rounds = read_rounds(place.at("rounds"));
+  if (place.has("sectors")) job.sectors = read_sectors(place.at("sectors"));
+  if (place.has("swell")) job.swell = place.at("swell").number_between(1.0, 3.0, "");
   if (place.has("options")) {
     const JsonPlace options = place.at("options");
     std::vector<std::string> groups;
@@ -273,6 +292,10 @@ std::string job_text(const Job& job) {
     if (round.drilled_m > 0.0) one["drilled"] = round.drilled_m;
     root["rounds"].push_back(one);
   }
+  if (job.sectors != standard_sectors())
+    for (const Sector& sector : job.sectors)
+      root["sectors"].push_back({{"name", sector.name}, {"from_deg", sector.from_deg}, {"to_deg", sector.to_deg}});
+  if (job.swell > 0.0) root["swell"] = job.swell;
   if (job.rings) {
     nlohmann::ordered_json one{{"file", job.rings->file}};
     if (job.rings->target_offset_m != 0.0) one["target_offset"] = job.rings->target_offset_m;

@@ -154,6 +154,40 @@ json amounts_json(const VolumeAmounts& amounts) {
           {"underbreak_m3", amounts.underbreak_m3}};
 }
 
+json sector_json(const SectorVolume& sector) {
+  const bool any = sector.max_overbreak_m > 0.0;
+  return {{"name", sector.name},
+          {"surface_m2", sector.surface_m2},
+          {"coverage", sector.surface_m2 > 0.0 ? sector.measured_m2 / sector.surface_m2 : 0.0},
+          {"overbreak_m3", sector.overbreak_m3},
+          {"underbreak_m3", sector.underbreak_m3},
+          {"mean_overbreak_m", sector.surface_m2 > 0.0 ? sector.overbreak_m3 / sector.surface_m2 : 0.0},
+          {"max_overbreak_m", sector.max_overbreak_m},
+          {"max_overbreak_chainage", any ? json(sector.max_overbreak_chainage_m) : json(nullptr)},
+          {"max_overbreak_clock_deg", any ? json(sector.max_overbreak_clock_deg) : json(nullptr)}};
+}
+
+json review_json(const RoundVolume& round) {
+  const RoundReview& r = round.review;
+  const SectorVolume worst = worst_sector(round.volume);
+  const bool any = worst.max_overbreak_m > 0.0;
+  return {{"pull_m", round.pull_m},
+          {"pull_efficiency", round.drilled_m > 0.0 ? json(round.pull_m / round.drilled_m) : json(nullptr)},
+          {"lookout_collar_m", number(r.lookout_collar_m)},
+          {"lookout_toe_m", number(r.lookout_toe_m)},
+          {"lookout_per_m", number(r.lookout_per_m)},
+          {"lookout_sigma_per_m", number(r.lookout_sigma_per_m)},
+          {"contour_ratio", number(r.contour_ratio)},
+          {"overbreak_area_sd_m2", number(r.overbreak_area_sd_m2)},
+          {"affected_share", number(r.affected_share)},
+          {"mean_overbreak_m", number(r.mean_overbreak_m)},
+          {"max_overbreak_m", worst.max_overbreak_m},
+          {"max_overbreak_chainage", any ? json(worst.max_overbreak_chainage_m) : json(nullptr)},
+          {"max_overbreak_clock_deg", any ? json(worst.max_overbreak_clock_deg) : json(nullptr)},
+          {"bank_m3", round.volume.slices.excavated_m3},
+          {"loose_m3", round.loose_m3 > 0.0 ? json(round.loose_m3) : json(nullptr)}};
+}
+
 json volume_json(const Volume& volume) {
   json one{
       {"line", volume.line}, {"line_offset_m", volume.line_offset_m}, {"from", volume.from_m}, {"to", volume.to_m}};
@@ -166,6 +200,8 @@ json volume_json(const Volume& volume) {
   one["interpolated_m2"] = volume.interpolated_m2;
   one["unseen_m2"] = volume.unseen_m2;
   one["closure_m3"] = volume.closure_m3;
+  one["sectors"] = json::array();
+  for (const SectorVolume& sector : volume.sectors) one["sectors"].push_back(sector_json(sector));
   one["average_end_area"] = amounts_json(volume.average_end_area);
   one["prismoidal"] = amounts_json(volume.prismoidal);
   return one;
@@ -240,6 +276,7 @@ std::string results_text(const Results& results) {
     root["rounds"] = json::array();
     for (const RoundVolume& round : results.volume->rounds) {
       json one{{"number", round.number}, {"drilled_m", round.drilled_m > 0.0 ? json(round.drilled_m) : json(nullptr)}};
+      one["review"] = review_json(round);
       add_members(one, volume_json(round.volume));
       root["rounds"].push_back(one);
     }

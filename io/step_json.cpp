@@ -52,10 +52,14 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlResidual, scan, id, residual_m, used, 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RegistrationResult, accepted, scans, pairs, loops, control, control_rms_m,
                                    sigma_factor, datum_sigma_m, datum_scan, in_site, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeAmounts, design_m3, excavated_m3, overbreak_m3, underbreak_m3)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SectorVolume, name, surface_m2, measured_m2, overbreak_m3, underbreak_m3,
+                                   max_overbreak_m, max_overbreak_chainage_m, max_overbreak_clock_deg)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RoundReview, lookout_collar_m, lookout_toe_m, lookout_per_m, lookout_sigma_per_m,
+                                   contour_ratio, overbreak_area_sd_m2, affected_share, mean_overbreak_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Volume, line, line_offset_m, from_m, to_m, slices, average_end_area, prismoidal,
                                    sigma_excavated_m3, sigma_overbreak_m3, sigma_underbreak_m3, coverage, measured_m2,
-                                   interpolated_m2, unseen_m2, closure_m3)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RoundVolume, number, drilled_m, volume)
+                                   interpolated_m2, unseen_m2, closure_m3, sectors)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RoundVolume, number, drilled_m, pull_m, loose_m3, review, volume)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeResult, lines, rounds, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshSummary, points, triangles, edges, boundary_loops, components, area_m2,
                                    mean_edge_m, longest_loop_m, holes_m, mean_deviation_m, sigma_deviation_m)
@@ -98,6 +102,15 @@ void swap_numbers(SurfaceResult& result, bool writing) {
   swap_number(result.mesh.sigma_deviation_m, writing);
 }
 
+void swap_numbers(VolumeResult& result, bool writing) {
+  for (RoundVolume& round : result.rounds) {
+    RoundReview& r = round.review;
+    for (double* value : {&r.lookout_collar_m, &r.lookout_toe_m, &r.lookout_per_m, &r.lookout_sigma_per_m,
+                          &r.contour_ratio, &r.overbreak_area_sd_m2, &r.affected_share, &r.mean_overbreak_m})
+      swap_number(*value, writing);
+  }
+}
+
 void swap_numbers(RingsResult& result, bool writing) {
   for (RingResult& ring : result.rings)
     for (double* value : {&ring.ovality_m, &ring.major_clock_deg, &ring.sigma_center_m, &ring.sigma_radius_m})
@@ -137,7 +150,9 @@ std::string step_text(const ProfileResult& result) {
 }
 
 std::string step_text(const VolumeResult& result) {
-  return nlohmann::json(result).dump(1);
+  VolumeResult copy = result;
+  swap_numbers(copy, true);
+  return nlohmann::json(copy).dump(1);
 }
 
 void read_step_text(const std::string& text, ImportResult& result) {
@@ -174,6 +189,7 @@ void read_step_text(const std::string& text, ProfileResult& result) {
 
 void read_step_text(const std::string& text, VolumeResult& result) {
   read(text, result);
+  swap_numbers(result, false);
 }
 
 }  // namespace adit::io

@@ -22,7 +22,7 @@ int draw_pages(Canvas& canvas, const ReportContent& content, const std::vector<R
     add_pages();
   };
   then([&] { add_title_page(flow, content, views); });
-  if (!content.results->registration.scans.empty()) then([&] { add_registration_pages(flow, content); });
+  if (!is_of_rings_alone(*content.results)) then([&] { add_registration_pages(flow, content); });
   then([&] { add_volume_pages(flow, content); });
   then([&] { add_chainage_pages(flow, content); });
   then([&] { add_ring_pages(flow, content); });

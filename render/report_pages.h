@@ -28,6 +28,9 @@ std::vector<std::string> absent_parts(const ReportContent& content);
 /// Rows of findings: subject, words, mend; decisions in red.
 Table findings_table(const Findings& findings);
 
+/// True for a job of rings without scans.
+bool is_of_rings_alone(const Results& results);
+
 /// True when no one needs to look: the registration is accepted and no finding asks for a decision.
 bool is_accepted(const Results& results);
 

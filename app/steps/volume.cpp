@@ -16,11 +16,29 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "volume 3|" + state.keys.at("profile");
+  std::string text = "volume 5|" + state.keys.at("profile");
   for (const JobRound& round : state.job.rounds)
     text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +
             "," + short_number(round.drilled_m);
-  return text;
+  for (const Sector& sector : state.job.sectors)
+    text += "|" + sector.name + "," + short_number(sector.from_deg) + "," + short_number(sector.to_deg);
+  return text + "|" + short_number(state.job.swell);
+}
+
+/// The sectors of a volume; what they lack to its whole is a fault unless the outline folds.
+void add_sectors(const JobState& state, const DesignLine& line, const std::string& subject, Volume& volume,
+                 Findings& findings) {
+  constexpr double least_m3 = 0.01, share = 0.005;
+  volume.sectors = sector_volumes(*state.map, *state.design, line, state.job.sectors, volume.from_m, volume.to_m,
+                                  state.job.options.profiling.gap_m);
+  double over = 0.0;
+  for (const SectorVolume& sector : volume.sectors) over += sector.overbreak_m3;
+  const double off = over - volume.slices.overbreak_m3;
+  if (std::abs(off) <= least_m3 + share * volume.slices.overbreak_m3) return;
+  findings.push_back({Severity::warning, subject,
+                      "the overbreak of its sectors differs from the whole by " +
+                          short_number(std::round(off * 100.0) / 100.0) + " m3: its outline folds over itself",
+                      "use the whole; look at the sections where rock stands behind rock"});
 }
 
 void add_round(JobState& state, const JobRound& round, VolumeResult& result, Progress& progress) {
@@ -43,6 +61,11 @@ void add_round(JobState& state, const JobRound& round, VolumeResult& result, Pro
   volume.drilled_m = round.drilled_m;
   volume.volume = compute_volume(map, *state.design, state.job.lines.front(), from, to, state.stretch().interval_m,
                                  state.results.registration, state.job.options.profiling, progress);
+  volume.pull_m = round.to_m - round.from_m;
+  volume.loose_m3 = state.job.swell * volume.volume.slices.excavated_m3;
+  volume.review =
+      review_round(map, *state.design, state.job.lines.front(), from, to, state.job.options.profiling.gap_m);
+  add_sectors(state, state.job.lines.front(), subject, volume.volume, result.findings);
   result.rounds.push_back(std::move(volume));
 }
 
@@ -54,6 +77,7 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
     Progress part = progress.part(share, "volumes against " + line.name);
     result.lines.push_back(compute_volume(map, *state.design, line, map.from_m, map.to_m, state.stretch().interval_m,
                                           state.results.registration, state.job.options.profiling, part));
+    add_sectors(state, line, "volume " + line.name, result.lines.back(), result.findings);
     const Volume& volume = result.lines.back();
     if (std::abs(volume.closure_m3) > 1e-3)
       result.findings.push_back(

@@ -87,6 +87,8 @@ struct Job {
   std::vector<DesignLine> lines{{"excavation", 0.0}};
   std::optional<JobChainage> chainage;
   std::vector<JobRound> rounds;
+  std::vector<Sector> sectors = standard_sectors();
+  double swell = 0.0;  ///< loose over bank volume; 0: not stated
   std::optional<JobRings> rings;
   JobOptions options;
 };

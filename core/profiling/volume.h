@@ -7,7 +7,9 @@
 #include "core/design/design_tunnel.h"
 #include "core/foundation/progress.h"
 #include "core/profiling/deviation_map.h"
+#include "core/profiling/round_review.h"
 #include "core/profiling/section.h"
+#include "core/profiling/sectors.h"
 #include "core/registration/registration.h"
 
 namespace adit {
@@ -36,12 +38,24 @@ struct Volume {
   double interpolated_m2 = 0.0;
   double unseen_m2 = 0.0;
   double closure_m3 = 0.0;  ///< (excavated - design) - (over - under): zero but for rounding
+  std::vector<SectorVolume> sectors;
 };
 
-/// A blasting round with its own volumes against the reference line.
+/// The sector with the deepest overbreak; an empty one where there is none.
+inline SectorVolume worst_sector(const Volume& volume) {
+  SectorVolume worst;
+  for (const SectorVolume& sector : volume.sectors)
+    if (sector.max_overbreak_m > worst.max_overbreak_m) worst = sector;
+  return worst;
+}
+
+/// A blasting round with its own volumes and review against the reference line.
 struct RoundVolume {
   int number = 0;
   double drilled_m = 0.0;  ///< 0 when not stated
+  double pull_m = 0.0;     ///< the round's length in the job, which may be more than was profiled
+  double loose_m3 = 0.0;   ///< excavated volume times the swell; 0 when no swell is stated
+  RoundReview review;
   Volume volume;
 };
 

@@ -83,7 +83,7 @@ void add_mesh(PageFlow& flow, const Results& results) {
 std::vector<std::string> absent_parts(const ReportContent& content) {
   const Results& results = *content.results;
   std::vector<std::string> absent;
-  if (results.registration.scans.empty()) return {"scans, and all that is made of them"};
+  if (is_of_rings_alone(results)) return {"scans, and all that is made of them"};
   if (results.registration.pairs.empty()) absent.push_back("pairs of scans (one scan, or none that overlap)");
   if (results.registration.control.empty()) absent.push_back("control (no targets on control points)");
   if (content.design == nullptr) absent.push_back("design lines (nothing was compared with a design)");

@@ -32,9 +32,8 @@ void add_status(PageFlow& flow, const Results& results) {
   const Findings findings = all_findings(results);
   const auto decisions = std::count_if(findings.begin(), findings.end(),
                                        [](const Finding& f) { return f.severity == Severity::decision; });
-  std::string words = results.registration.scans.empty()
-                          ? "ACCEPTED: every ring is fitted"
-                          : "ACCEPTED: every scan is placed and every direction is determined";
+  std::string words = is_of_rings_alone(results) ? "ACCEPTED: every ring is fitted"
+                                                 : "ACCEPTED: every scan is placed and every direction is determined";
   if (!accepted && decisions == 0) words = "NOT ACCEPTED: the registration is not complete";
   if (decisions > 0)
     words = "NOT ACCEPTED: a person must decide (" + std::to_string(decisions) +
@@ -142,9 +141,12 @@ void add_picture(PageFlow& flow, const std::vector<ReportView>& views) {
 
 }  // namespace
 
+bool is_of_rings_alone(const Results& results) {
+  return results.registration.scans.empty() && results.rings.has_value();
+}
+
 bool is_accepted(const Results& results) {
-  const bool rings_alone = results.registration.scans.empty() && results.rings;
-  return (results.registration.accepted || rings_alone) && !needs_a_person(results);
+  return (results.registration.accepted || is_of_rings_alone(results)) && !needs_a_person(results);
 }
 
 Table findings_table(const Findings& findings) {

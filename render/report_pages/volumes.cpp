@@ -131,6 +131,89 @@ void add_rounds(PageFlow& flow, const VolumeResult& volume) {
       colours::grey, 2.3);
 }
 
+std::string or_dash(double value, double factor, int decimals) {
+  return std::isfinite(value) ? fixed(factor * value, decimals) : std::string("\u2013");
+}
+
+void add_sectors(PageFlow& flow, const Volume& v) {
+  if (v.sectors.empty()) return;
+  flow.subheading("By sector, against " + line_name(v));
+  Table table{{{"sector", 30, false},
+               {"surface m\u00b2", 20, true},
+               {"measured", 17, true},
+               {"over m\u00b3", 18, true},
+               {"under m\u00b3", 18, true},
+               {"mean over m", 18, true},
+               {"max over m", 18, true},
+               {"at chainage m", 22, true},
+               {"clock \u00b0", 14, true}},
+              {},
+              2.3};
+  for (const SectorVolume& s : v.sectors) {
+    const double surface_m2 = s.surface_m2 > 0.0 ? s.surface_m2 : 1.0;
+    const double coverage = s.measured_m2 / surface_m2;
+    const bool any = s.max_overbreak_m > 0.0;
+    table.rows.push_back({s.name, fixed(s.surface_m2, 1),
+                          TableCell(percent(coverage), coverage < 0.8 ? colours::red : colours::black),
+                          fixed(s.overbreak_m3, 2), fixed(s.underbreak_m3, 2), fixed(s.overbreak_m3 / surface_m2, 3),
+                          fixed(s.max_overbreak_m, 2), any ? fixed(s.max_overbreak_chainage_m, 2) : "\u2013",
+                          any ? fixed(s.max_overbreak_clock_deg, 0) : "\u2013"});
+  }
+  flow.table(table);
+  flow.paragraph(
+      "A place belongs to a sector by where the design line's outward normal points there; clock: degrees "
+      "clockwise from straight up, looking up-chainage. The sectors sum to the volumes above.",
+      colours::grey, 2.3);
+}
+
+std::vector<TableCell> review_row(const RoundVolume& r) {
+  const RoundReview& review = r.review;
+  const SectorVolume worst = worst_sector(r.volume);
+  const double sigma = review.lookout_sigma_per_m;
+  return {std::to_string(r.number),
+          or_dash(review.lookout_collar_m, 1.0, 2),
+          or_dash(review.lookout_toe_m, 1.0, 2),
+          or_dash(review.lookout_per_m, 100.0, 1) + (std::isfinite(sigma) ? " \u00b1 " + fixed(200.0 * sigma, 1) : ""),
+          or_dash(review.mean_overbreak_m, 1.0, 2),
+          fixed(worst.max_overbreak_m, 2),
+          worst.max_overbreak_m > 0.0 ? worst.name + ", " + fixed(worst.max_overbreak_clock_deg, 0) + "\u00b0" : "",
+          or_dash(review.affected_share, 100.0, 0),
+          or_dash(review.contour_ratio, 1.0, 3),
+          or_dash(review.overbreak_area_sd_m2, 1.0, 2),
+          fixed(r.volume.slices.excavated_m3, 1),
+          r.loose_m3 > 0.0 ? fixed(r.loose_m3, 1) : "\u2013"};
+}
+
+void add_reviews(PageFlow& flow, const ReportContent& content) {
+  const VolumeResult& volume = *content.results->volume;
+  if (volume.rounds.empty()) return;
+  flow.subheading("What the rounds did to their contour, against " + volume.lines.front().line);
+  Table table{{{"round", 12, true},
+               {"collar m", 14, true},
+               {"toe m", 13, true},
+               {"look-out cm/m", 22, true},
+               {"mean over m", 15, true},
+               {"max over m", 14, true},
+               {"where", 30, false},
+               {"affected %", 15, true},
+               {"contour ratio", 15, true},
+               {"sd of over m\u00b2", 16, true},
+               {"bank m\u00b3", 15, true},
+               {"loose m\u00b3", 15, true}},
+              {},
+              2.1};
+  for (const RoundVolume& r : volume.rounds) table.rows.push_back(review_row(r));
+  flow.table(table);
+  const double swell = content.job->swell;
+  flow.paragraph(
+      "Walls and roof only. Collar, toe, look-out: regression of the rock over the chainage, with two sigmas "
+      "from how blocks of 3 m of the contour differ. Affected: share outside the line; mean over: depth there. "
+      "Contour ratio: length of the outline over that of the line. Sd: of the slices' overbreak areas. Bank: "
+      "excavated volume" +
+          (swell > 0.0 ? "; loose: times the swell of " + fixed(swell, 2) : std::string()) + ".",
+      colours::grey, 2.3);
+}
+
 }  // namespace
 
 void add_volume_pages(PageFlow& flow, const ReportContent& content) {
@@ -147,7 +230,9 @@ void add_volume_pages(PageFlow& flow, const ReportContent& content) {
     flow.subheading("Along the chainage, against " + first.line, 84.0);
     draw_volume_chart(flow.canvas(), flow.take(74.0), content.results->profile->sections, content.job->rounds);
   }
+  add_sectors(flow, first);
   add_rounds(flow, volume);
+  add_reviews(flow, content);
 }
 
 }  // namespace adit::render

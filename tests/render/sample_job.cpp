@@ -200,9 +200,17 @@ SampleJob::SampleJob() {
   results.profile = std::move(profile);
   VolumeResult volume;
   for (const DesignLine& line : site.lines()) volume.lines.push_back(sample_volume(line, from_m, to_m, 0.2));
-  for (const JobRound& round : job.rounds)
-    volume.rounds.push_back(
-        {round.number, round.drilled_m, sample_volume(site.lines().front(), round.from_m, round.to_m, 0.3)});
+  for (const JobRound& round : job.rounds) {
+    RoundVolume one;
+    one.number = round.number;
+    one.drilled_m = round.drilled_m;
+    one.pull_m = round.to_m - round.from_m;
+    one.volume = sample_volume(site.lines().front(), round.from_m, round.to_m, 0.3);
+    one.review = review_round(map, site, site.lines().front(), round.from_m, round.to_m, job.options.profiling.gap_m);
+    one.volume.sectors = sector_volumes(map, site, site.lines().front(), job.sectors, round.from_m, round.to_m,
+                                        job.options.profiling.gap_m);
+    volume.rounds.push_back(std::move(one));
+  }
   results.volume = std::move(volume);
   results.surface = SurfaceResult{};
   results.surface->mesh.points = 38841;

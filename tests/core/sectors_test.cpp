@@ -1,0 +1,104 @@
+#include "core/profiling/sectors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/foundation/error.h"
+#include "core/profiling/profiling.h"
+#include "tests/core/sample_tunnel.h"
+
+namespace adit {
+namespace {
+
+/// A measured map at deviation d(row, column centre) of a circle about the axis.
+template <typename Deviation>
+DeviationMap map_of(const DesignTunnel& design, const Deviation& deviation) {
+  DeviationMap map;
+  map.from_m = 20;
+  map.to_m = 28;
+  map.rows = 80;
+  const ProfileStretch stretch(design.profile_at(24));
+  map.columns = stretch.columns(map.step_q_m);
+  map.cells.resize(map.rows * map.columns);
+  for (std::size_t r = 0; r < map.rows; ++r)
+    for (std::size_t c = 0; c < map.columns; ++c) {
+      const double q = std::min((static_cast<double>(c) + 0.5) * map.step_q_m, stretch.length_m());
+      MapCell& cell = map.cell(r, c);
+      cell.kind = CellKind::measured;
+      cell.count = 9;
+      cell.deviation_m = static_cast<float>(deviation(map.row_chainage(r), stretch.at(q)));
+    }
+  return map;
+}
+
+TEST(Sectors, AShellOfACircleFallsToItsSectorsByTheirAngles) {
+  const double d = 0.2, radius = 4.0;
+  const DesignTunnel design = tests::sample_design(tests::circle_profile(radius));
+  const DeviationMap map = map_of(design, [&](double, const ProfilePoint&) { return d; });
+  const auto sectors = sector_volumes(map, design, {"line", 0.0}, standard_sectors(), 20, 28, 1.0);
+  ASSERT_EQ(sectors.size(), 6U);
+  const double whole = pi * ((radius + d) * (radius + d) - radius * radius) * 8.0;
+  double sum = 0.0;
+  for (const SectorVolume& sector : sectors) sum += sector.overbreak_m3;
+  EXPECT_NEAR(sum, whole, 1e-3 * whole);
+  EXPECT_EQ(sectors[0].name, "crown");
+  EXPECT_NEAR(sectors[0].overbreak_m3, whole * 60 / 360, 0.01 * whole);
+  EXPECT_NEAR(sectors[3].overbreak_m3, whole * 90 / 360, 0.01 * whole);
+  EXPECT_NEAR(sectors[0].max_overbreak_m, d, 1e-6);
+  EXPECT_EQ(sectors[0].underbreak_m3, 0.0);
+}
+
+TEST(Sectors, TheySumToTheSlicesOnACurveWithOverAndUnderMixed) {
+  const DesignTunnel design = tests::sample_design(tests::arch_profile(), 60.0);
+  const DeviationMap map = map_of(design, [](double s, const ProfilePoint& at) {
+    return 0.1 * std::sin(3.0 * at.p_m) + 0.08 * std::sin(2.0 * s) + 0.03;
+  });
+  Progress progress;
+  for (const double offset : {0.0, 0.15}) {
+    const DesignLine line{"line", offset};
+    const Volume volume = compute_volume(map, design, line, 20.03, 27.9, 1.0, {}, {}, progress);
+    double over = 0.0, under = 0.0;
+    for (const SectorVolume& sector : sector_volumes(map, design, line, standard_sectors(), 20.03, 27.9, 1.5)) {
+      over += sector.overbreak_m3;
+      under += sector.underbreak_m3;
+    }
+    EXPECT_NEAR(over, volume.slices.overbreak_m3, 0.005 * volume.slices.overbreak_m3) << offset;
+    EXPECT_NEAR(under, volume.slices.underbreak_m3, 0.005 * volume.slices.underbreak_m3) << offset;
+  }
+}
+
+TEST(Sectors, ThoseThatDoNotCoverTheProfileOnceAreRefused) {
+  EXPECT_NO_THROW(check_sectors(standard_sectors()));
+  EXPECT_NO_THROW(check_sectors({{"upper", -90, 90}, {"lower", 90, -90}}));
+  EXPECT_THROW(check_sectors({{"upper", -90, 90}}), Error);
+  EXPECT_THROW(check_sectors({{"upper", -90, 90}, {"lower", 80, -90}}), Error);
+  EXPECT_THROW(check_sectors({{"a", -90, 90}, {"a", 90, -90}}), Error);
+  EXPECT_THROW(check_sectors({}), Error);
+}
+
+TEST(RoundReview, ALookOutIsFoundAndARoughContourDoesNotPromiseTooMuch) {
+  const DesignTunnel design = tests::sample_design(tests::arch_profile());
+  const auto tooth = [](double s, const ProfilePoint& at) {
+    return at.normal.y() < -0.5 ? -0.05 : 0.06 + 0.08 * (s - 20.0);
+  };
+  const RoundReview smooth = review_round(map_of(design, tooth), design, {"line", 0.0}, 20, 28, 1.0);
+  EXPECT_NEAR(smooth.lookout_per_m, 0.08, 1e-4);
+  EXPECT_NEAR(smooth.lookout_collar_m, 0.06, 1e-3);
+  EXPECT_NEAR(smooth.lookout_toe_m, 0.70, 1e-3);
+  EXPECT_NEAR(smooth.lookout_sigma_per_m, 0.0, 1e-4);
+  EXPECT_NEAR(smooth.affected_share, 1.0, 1e-12);
+  EXPECT_NEAR(smooth.mean_overbreak_m, 0.38, 1e-3);
+  const DeviationMap rough = map_of(
+      design, [&](double s, const ProfilePoint& at) { return tooth(s, at) + 0.05 * std::sin(0.6 * s + 2.0 * at.p_m); });
+  const RoundReview review = review_round(rough, design, {"line", 0.0}, 20, 28, 1.0);
+  EXPECT_NEAR(review.lookout_per_m, 0.08, 2.0 * review.lookout_sigma_per_m);
+  EXPECT_GT(review.lookout_sigma_per_m, 0.0005);
+  EXPECT_GT(review.contour_ratio, smooth.contour_ratio);
+  DeviationMap unseen = rough;
+  for (MapCell& cell : unseen.cells) cell = MapCell{};
+  EXPECT_TRUE(std::isnan(review_round(unseen, design, {"line", 0.0}, 20, 28, 1.0).lookout_per_m));
+}
+
+}  // namespace
+}  // namespace adit
