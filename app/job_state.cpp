@@ -64,20 +64,31 @@ void read_alignment(JobState& state) {
   const io::AxisFile file = io::read_axis(state.folder / job.alignment, job.alignment_start_m);
   state.alignment = io::choose_alignment(file, job.alignment_name);
   add(file.findings, state.input_findings);
-  add(io::named_axis(file, job.alignment_name).findings, state.input_findings);
+  const io::FileAxis& axis = io::named_axis(file, job.alignment_name);
+  if (job.turned_by_cant && axis.cant_refusal) throw Error(*axis.cant_refusal);
+  add(axis.findings, state.input_findings);
 }
 
 /// Profiles stand upright: where the axis has cant, that must not pass unseen.
 void look_at_cant(JobState& state) {
   constexpr double reported_m = 1e-3;
   if (!state.has_design()) return;
+  if (state.job.turned_by_cant && state.alignment->cant().empty())
+    throw Error("\"cant\" turns the profile, and the axis has none", state.file.string(),
+                "leave it out, or export the axis with its cant");
   const JobChainage stretch = state.stretch();
   const double strongest_m = state.alignment->cant().strongest_m(stretch.from_m, stretch.to_m);
   if (strongest_m < reported_m) return;
+  if (state.job.turned_by_cant) {
+    state.input_findings.push_back(
+        {Severity::note, "alignment " + state.alignment->name(),
+         "the profile is turned with its cant of up to " + short_number(std::round(1000.0 * strongest_m)) + " mm", ""});
+    return;
+  }
   state.input_findings.push_back({Severity::warning, "alignment " + state.alignment->name(),
                                   "it has a cant of up to " + short_number(std::round(1000.0 * strongest_m)) +
                                       " mm here; the profile is not turned with it",
-                                  "draw the profile as it is to be built"});
+                                  "write \"cant\": \"turns_profile\" if it should be"});
 }
 
 void read_control(JobState& state) {
@@ -104,7 +115,7 @@ JobChainage JobState::stretch() const {
 }
 
 std::string JobState::profiles_text() const {
-  std::string text;
+  std::string text = job.turned_by_cant ? "|turned by cant" : "";
   for (const JobProfile& profile : job.profiles) {
     text += "|" + (profile.library.empty() ? input_sha256.at(profile.file) : "library " + profile.library) +
             profile.layer + short_number(profile.from_m) + (profile.interpolated ? " to next" : "");

@@ -210,7 +210,7 @@ Job read_job(const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const JsonPlace place(root, file.string());
   place.only_keys({"adit", "name", "client", "surveyor", "scans", "control", "targets", "alignment", "alignment_name",
-                   "alignment_start", "profile", "lines", "chainage", "rounds", "sectors", "swell", "rings",
+                   "alignment_start", "profile", "cant", "lines", "chainage", "rounds", "sectors", "swell", "rings",
                    "options"});
   if (place.at("adit").whole_number() != 1)
     place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
@@ -232,6 +232,12 @@ Job read_job(const fs::path& file) {
   job.alignment_name = place.text_or("alignment_name", "");
   if (place.has("alignment_start")) job.alignment_start_m = place.at("alignment_start").number_between(-1e6, 1e7, "m");
   if (place.has("profile")) job.profiles = read_profiles(place.at("profile"), folder);
+  if (place.has("cant")) {
+    const std::string way = place.at("cant").text();
+    if (way != "turns_profile" && way != "ignored")
+      place.at("cant").refuse("unknown word", "write turns_profile or ignored");
+    job.turned_by_cant = way == "turns_profile";
+  }
   if (place.has("lines")) job.lines = read_lines(place.at("lines"));
   if (place.has("chainage")) job.chainage = read_chainage(place.at("chainage"));
   if (place.has("rounds")) job.rounds = read_rounds(place.at("rounds"));
@@ -283,6 +289,7 @@ std::string job_text(const Job& job) {
     if (profile.from_m > -1e9) one["from"] = profile.from_m;
     root["profile"].push_back(one);
   }
+  if (job.turned_by_cant) root["cant"] = "turns_profile";
   for (const DesignLine& line : job.lines) root["lines"].push_back({{"name", line.name}, {"offset", line.offset_m}});
   if (job.chainage)
     root["chainage"] = {

@@ -237,7 +237,7 @@ void summarise(JobState& state) {
 
 void make_design(JobState& state) {
   if (state.has_design())
-    state.design = DesignTunnel(*state.alignment, state.profiles, state.job.lines)
+    state.design = DesignTunnel(*state.alignment, state.profiles, state.job.lines, state.job.turned_by_cant)
                        .relative_to(state.results.import.origin.position);
 }
 

@@ -48,6 +48,35 @@ std::vector<ProfileFrom> stepped(const std::vector<ProfileFrom>& profiles) {
   return steps;
 }
 
+/// Stretches of one profile between `from` and `to`, turned: one where the cant is even, small steps where it changes.
+void add_turned(const Profile& profile, const Cant& cant, double from_m, double to_m, std::vector<ProfileFrom>& steps) {
+  const CantAt begin = cant.at(from_m), end = cant.at(to_m - 1e-9);
+  const double reach_m = profile.box().max().cwiseAbs().cwiseMax(profile.box().min().cwiseAbs()).norm();
+  const double change_m = reach_m * std::abs(end.turn_rad - begin.turn_rad) + std::abs(end.rise_m - begin.rise_m);
+  const double wanted = std::min((to_m - from_m) / 0.1, change_m / 0.001);
+  const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(wanted)));
+  for (std::size_t k = 0; k < n; ++k) {
+    const double length_m = (to_m - from_m) / static_cast<double>(n);
+    const CantAt at = cant.at(from_m + (static_cast<double>(k) + 0.5) * length_m);
+    steps.push_back({from_m + static_cast<double>(k) * length_m, turned_profile(profile, at.turn_rad, at.rise_m)});
+  }
+}
+
+std::vector<ProfileFrom> turned(const std::vector<ProfileFrom>& profiles, const Alignment& axis) {
+  std::vector<ProfileFrom> steps;
+  for (std::size_t i = 0; i < profiles.size(); ++i) {
+    const double from_m = std::max(profiles[i].from_m, i == 0 ? axis.from_m() : profiles[i].from_m);
+    const double to_m = std::min(i + 1 < profiles.size() ? profiles[i + 1].from_m : axis.to_m(), axis.to_m());
+    std::vector<double> bounds{from_m};
+    for (const CantStation& station : axis.cant().stations())
+      if (station.chainage_m > bounds.back() && station.chainage_m < to_m) bounds.push_back(station.chainage_m);
+    bounds.push_back(to_m);
+    for (std::size_t b = 0; b + 1 < bounds.size(); ++b)
+      if (bounds[b + 1] > bounds[b]) add_turned(profiles[i].profile, axis.cant(), bounds[b], bounds[b + 1], steps);
+  }
+  return steps;
+}
+
 void check_lines(const std::vector<DesignLine>& lines) {
   if (lines.empty()) throw Error("the design has no line");
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -60,11 +89,13 @@ void check_lines(const std::vector<DesignLine>& lines) {
 
 }  // namespace
 
-DesignTunnel::DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profiles, std::vector<DesignLine> lines)
+DesignTunnel::DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profiles, std::vector<DesignLine> lines,
+                           bool turned_by_cant)
     : alignment_(std::move(alignment)), profiles_(std::move(profiles)), lines_(std::move(lines)) {
   check_profiles(profiles_);
   check_lines(lines_);
   profiles_ = stepped(profiles_);
+  if (turned_by_cant && !alignment_.cant().empty()) profiles_ = turned(profiles_, alignment_);
 }
 
 const Profile& DesignTunnel::profile_at(double chainage_m) const {

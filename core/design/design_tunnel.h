@@ -29,7 +29,9 @@ class DesignTunnel {
   /// Interpolated stretches become profiles every 0.1 m, or where the profile has changed by a millimetre. Throws Error
   /// when there is no profile, no line, two lines of one name, profiles are not in order of chainage, or the last one
   /// is interpolated.
-  DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profiles, std::vector<DesignLine> lines);
+  /// `turned_by_cant`: every profile is turned and raised with the axis's cant (Cant::at), in steps of the same size.
+  DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profiles, std::vector<DesignLine> lines,
+               bool turned_by_cant = false);
 
   const Alignment& alignment() const { return alignment_; }
   const std::vector<ProfileFrom>& profiles() const { return profiles_; }

@@ -1,5 +1,6 @@
 #include "core/design/profile_blend.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -54,6 +55,15 @@ Profile blended_profile(const Profile& from, const Profile& to, double share) {
     segments.push_back(
         {between(from, to, shares[i], share), between(from, to, shares[(i + 1) % shares.size()], share)});
   return Profile(name, segments);
+}
+
+Profile turned_profile(const Profile& profile, double turn_rad, double rise_m) {
+  const Eigen::Rotation2Dd turn(-turn_rad);
+  std::vector<ProfileSegment> segments;
+  for (const ProfileSegment& segment : profile.segments())
+    segments.push_back({turn * segment.start + Eigen::Vector2d(0.0, rise_m),
+                        turn * segment.end + Eigen::Vector2d(0.0, rise_m), segment.bulge});
+  return Profile(profile.name(), segments);
 }
 
 double blend_distance_m(const Profile& from, const Profile& to) {

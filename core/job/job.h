@@ -84,6 +84,7 @@ struct Job {
   std::string alignment_name;               ///< when the file holds several
   std::optional<double> alignment_start_m;  ///< chainage of its first point, for formats that state none
   std::vector<JobProfile> profiles;
+  bool turned_by_cant = false;  ///< profiles turn with the axis's cant
   std::vector<DesignLine> lines{{"excavation", 0.0}};
   std::optional<JobChainage> chainage;
   std::vector<JobRound> rounds;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/design/profile_blend.h"
 #include "core/foundation/error.h"
 #include "tests/core/profile_shapes.h"
@@ -73,6 +75,26 @@ TEST(DesignTunnelBlend, UnlikeProfilesMeetBothEnds) {
   const double half = blended_profile(circle, rectangle, 0.5).area_m2();
   EXPECT_GT(half, circle.area_m2());
   EXPECT_LT(half, 36.0);
+}
+
+TEST(DesignTunnelCant, ProfilesTurnAndRiseWithTheCant) {
+  const Alignment axis("a", straight().horizontal(), straight().vertical(), {},
+                       Cant({{20, 0, 0}, {40, 0.15, 0}, {100, 0.15, 0}}, 1.5));
+  const DesignTunnel tunnel(axis, {{0, box(4, 3)}}, {{"line", 0}}, true);
+  const auto corner = [&](double s) { return tunnel.profile_at(s).nearest({2.0, 0.0}); };
+  EXPECT_NEAR(corner(10).deviation_m, 0.0, 1e-9);
+  const double turn = std::asin(0.1);
+  // The right floor corner stands lower, the left one higher, the middle raised by half the cant.
+  for (const Eigen::Vector2d& place : {Eigen::Vector2d(2, 0), Eigen::Vector2d(-2, 0), Eigen::Vector2d(-2, 3)}) {
+    const Eigen::Vector2d there(place.x() * std::cos(turn) + place.y() * std::sin(turn),
+                                0.075 + place.y() * std::cos(turn) - place.x() * std::sin(turn));
+    EXPECT_NEAR(tunnel.profile_at(60).nearest(there).deviation_m, 0.0, 1e-9);
+  }
+  const double half = std::asin(0.05);
+  EXPECT_NEAR(tunnel.profile_at(30).nearest({2 * std::cos(half), 0.0375 - 2 * std::sin(half)}).deviation_m, 0.0, 0.001);
+  EXPECT_NEAR(tunnel.profile_at(60).area_m2(), 12.0, 1e-9);
+  EXPECT_NEAR(DesignTunnel(axis, {{0, box(4, 3)}}, {{"line", 0}}).profile_at(60).nearest({2.0, 0.0}).deviation_m, 0.0,
+              1e-9);
 }
 
 }  // namespace
