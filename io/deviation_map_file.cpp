@@ -10,9 +10,9 @@
 namespace adit::io {
 namespace {
 
-constexpr std::string_view magic = "ADITMAP1";
+constexpr std::string_view magic = "ADITMAP2";
 constexpr std::size_t header_size = 8 + 4 * 8 + 2 * 8;
-constexpr std::size_t cell_size = 4 + 4 + 4 + 1;
+constexpr std::size_t cell_size = 4 + 4 + 4 + 4 + 1;
 constexpr std::size_t checksum_size = 64;
 
 template <typename Value>
@@ -33,6 +33,7 @@ void write_deviation_map(const std::filesystem::path& path, const DeviationMap& 
     put(bytes, cell.deviation_m);
     put(bytes, cell.spread_m);
     put(bytes, cell.count);
+    put(bytes, cell.incidence);
     put(bytes, static_cast<std::uint8_t>(cell.kind));
   }
   bytes += sha256_of_bytes(bytes);
@@ -64,7 +65,8 @@ DeviationMap read_deviation_map(const std::filesystem::path& path) {
     cell.deviation_m = little<float>(at);
     cell.spread_m = little<float>(at + 4);
     cell.count = little<std::uint32_t>(at + 8);
-    cell.kind = static_cast<CellKind>(little<std::uint8_t>(at + 12));
+    cell.incidence = little<float>(at + 12);
+    cell.kind = static_cast<CellKind>(little<std::uint8_t>(at + 16));
     at += cell_size;
   }
   return map;

@@ -52,6 +52,7 @@ struct MapCell {
   float deviation_m = std::numeric_limits<float>::quiet_NaN();  ///< from the profile itself (offset 0)
   float spread_m = 0.0F;                                        ///< robust sigma of the points about it
   std::uint32_t count = 0;                                      ///< points of the rock surface
+  float incidence = 1.0F;  ///< mean cosine between their rays and the line's normal: 1 square, 0 grazing
   CellKind kind = CellKind::unseen;
 };
 

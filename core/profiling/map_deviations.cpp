@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <tuple>
 
 #include "core/foundation/error.h"
@@ -16,12 +17,13 @@ namespace adit {
 namespace {
 
 constexpr double longest_slab_m = 4.0;
-constexpr double bytes_a_point = 40.0;  // an entry, its copy, and the sort
+constexpr double bytes_a_point = 52.0;  // an entry, its copy, and the sort
 
 struct Entry {
   std::uint32_t cell;
   float deviation_m;
-  float place;  ///< within the thickness of the slice, 0 to 1
+  float place;      ///< within the thickness of the slice, 0 to 1
+  float incidence;  ///< cosine between the ray and the normal of the design line
 };
 
 struct TileEntries {
@@ -36,6 +38,8 @@ struct Mapper {
   const ProfilingOptions& options;
   const DeviationMap& map;
   std::vector<ProfileStretch> stretches;  ///< one for each of the design's profiles
+  /// Where the scanners stand, offset and height; nothing where it is not known or not in the tunnel.
+  std::vector<std::optional<Eigen::Vector2d>> scanners;
 
   const ProfileStretch& stretch_at(double chainage_m) const {
     const Profile* profile = &design.profile_at(chainage_m);
@@ -72,14 +76,31 @@ struct Mapper {
         const auto column = static_cast<std::size_t>(stretch_at(at.s_m).q_of(foot) / map.step_q_m);
         const std::size_t cell = (row - first_row) * map.columns + std::min(column, map.columns - 1);
         const double place = (at.s_m - map.from_m) / map.step_s_m - static_cast<double>(row);
-        result.entries.push_back(
-            {static_cast<std::uint32_t>(cell), static_cast<float>(foot.deviation_m), static_cast<float>(place)});
+        result.entries.push_back({static_cast<std::uint32_t>(cell), static_cast<float>(foot.deviation_m),
+                                  static_cast<float>(place), incidence(scanners[ref.scan], at, foot.direction, range)});
       }
     };
     visit_slab_of_tile(scans, ref, enough_points(ref), frames, add);
     return result;
   }
+
+  static float incidence(const std::optional<Eigen::Vector2d>& scanner, const TunnelPoint& at,
+                         const Eigen::Vector2d& normal, double range_m) {
+    if (!scanner || range_m <= 0.0) return 1.0F;
+    const double square_m = std::abs((Eigen::Vector2d(at.x_m, at.z_m) - *scanner).dot(normal));
+    return static_cast<float>(std::min(1.0, square_m / range_m));
+  }
 };
+
+std::vector<std::optional<Eigen::Vector2d>> scanners_in_tunnel(const std::vector<PlacedTiles>& scans,
+                                                               const Alignment& axis) {
+  std::vector<std::optional<Eigen::Vector2d>> places;
+  for (const PlacedTiles& scan : scans) {
+    const auto at = scan.scanner_at_origin ? axis.to_tunnel(scan.local_from_scan.translation()) : std::nullopt;
+    places.push_back(at ? std::optional(Eigen::Vector2d(at->x_m, at->z_m)) : std::nullopt);
+  }
+  return places;
+}
 
 /// The part of a cell's points (sorted by deviation) that is rock. The outermost band that holds enough of them is rock
 /// for certain: what lies behind it is stray. In front of it a step between two rounds is rock, too, but well inside
@@ -159,6 +180,9 @@ MapCell surface_cell(const Entry* begin, const Entry* end, const ProfilingOption
   cell.deviation_m = static_cast<float>(mean_over_slice(rock));
   cell.spread_m = static_cast<float>(robust_sigma(values));
   cell.count = static_cast<std::uint32_t>(values.size());
+  double incidences = 0.0;
+  for (const Entry& entry : rock) incidences += static_cast<double>(entry.incidence);
+  cell.incidence = static_cast<float>(incidences / static_cast<double>(rock.size()));
   cell.kind = CellKind::measured;
   return cell;
 }
@@ -298,7 +322,7 @@ MapResult map_deviations(const std::vector<PlacedTiles>& scans, const ChainageIn
   for (const auto& stepped : design.profiles()) stretches.emplace_back(stepped.profile);
   MapResult result;
   result.map = empty_map(stretches, from_m, to_m, options);
-  const Mapper mapper{scans, design, options, result.map, stretches};
+  const Mapper mapper{scans, design, options, result.map, stretches, scanners_in_tunnel(scans, design.alignment())};
   const std::vector<std::size_t> begins = slabs(mapper, index, memory_bytes);
   for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
     progress.step(begins[i], result.map.rows);

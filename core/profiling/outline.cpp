@@ -30,11 +30,13 @@ void fill_gap(Row& row, std::size_t before, std::size_t count) {
   const std::size_t n = row.size();
   const double d0 = static_cast<double>(row.cells[before].deviation_m);
   const double d1 = static_cast<double>(row.cells[(before + count + 1) % n].deviation_m);
+  const float incidence = 0.5F * (row.cells[before].incidence + row.cells[(before + count + 1) % n].incidence);
   for (std::size_t k = 1; k <= count; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(count + 1);
     MapCell& cell = row.cells[(before + k) % n];
     cell.kind = CellKind::interpolated;
     cell.deviation_m = static_cast<float>(d0 + share * (d1 - d0));
+    cell.incidence = incidence;
   }
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double correlated_area_m2 = 0.5;
 
 struct Sums {
-  double area_m2 = 0.0;
+  double biased_m2 = 0.0;  ///< sum of a times the cosine of incidence
   double across_m2 = 0.0;  ///< sum of a n_x
   double up_m2 = 0.0;      ///< sum of a n_z
   double noise_m6 = 0.0;
@@ -40,7 +40,7 @@ void add_cell(Sums& sums, const MapCell& cell, const ProfilePoint& at, double ar
     sums.deviation_square += area_m2 * counted * counted;
   }
   if (!belongs(part, over)) return;
-  sums.area_m2 += area_m2;
+  sums.biased_m2 += area_m2 * static_cast<double>(cell.incidence);
   sums.across_m2 += area_m2 * at.normal.x();
   sums.up_m2 += area_m2 * at.normal.y();
   if (cell.kind == CellKind::interpolated)
@@ -105,7 +105,7 @@ double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, cons
       std::hypot(mean, std::sqrt(rock_variance * correlated_area_m2 / std::max(sums.unseen_m2, correlated_area_m2)));
   const double total = std::pow(sums.across_m2 * sigma.across_m, 2) + std::pow(sums.up_m2 * sigma.up_m, 2) +
                        std::pow(end_difference_m2(row_amount_m2) * sigma.along_m, 2) +
-                       std::pow(sums.area_m2 * options.range_bias_sigma_m, 2) + sums.noise_m6 +
+                       std::pow(sums.biased_m2 * options.range_bias_sigma_m, 2) + sums.noise_m6 +
                        sums.interpolated_m2 * correlated_area_m2 * 0.25 * rock_variance + unseen * unseen;
   return std::sqrt(total);
 }

@@ -113,7 +113,16 @@ Eigen::Vector3d normal3(const Random& random, std::uint64_t index) {
 
 /// How often the truth lies within two stated sigmas when poses, datum and distances err by what they state.
 struct Inside {
-  int draws = 0, over = 0, under = 0, excavated = 0;
+  int draws = 0;
+  struct Part {
+    int within = 0;
+    double squares = 0.0;  ///< of errors over sigmas
+    void add(double error, double sigma) {
+      within += std::abs(error) <= 2.0 * sigma ? 1 : 0;
+      squares += error * error / (sigma * sigma);
+    }
+  };
+  Part over, under, excavated;
 };
 
 Inside draws_of_tunnel(std::uint64_t seed, int draws, bool clutter) {
@@ -157,9 +166,9 @@ Inside draws_of_tunnel(std::uint64_t seed, int draws, bool clutter) {
     const Volume v =
         compute_volume(map.map, rock.design(), {"excavation", 0.0}, first_m, last_m, 1.0, registration, {}, progress);
     ++inside.draws;
-    inside.over += std::abs(v.slices.overbreak_m3 - truth.overbreak_m3) <= 2.0 * v.sigma_overbreak_m3 ? 1 : 0;
-    inside.under += std::abs(v.slices.underbreak_m3 - truth.underbreak_m3) <= 2.0 * v.sigma_underbreak_m3 ? 1 : 0;
-    inside.excavated += std::abs(v.slices.excavated_m3 - truth.excavated_m3) <= 2.0 * v.sigma_excavated_m3 ? 1 : 0;
+    inside.over.add(v.slices.overbreak_m3 - truth.overbreak_m3, v.sigma_overbreak_m3);
+    inside.under.add(v.slices.underbreak_m3 - truth.underbreak_m3, v.sigma_underbreak_m3);
+    inside.excavated.add(v.slices.excavated_m3 - truth.excavated_m3, v.sigma_excavated_m3);
   }
   return inside;
 }
@@ -168,7 +177,7 @@ void bench_uncertainty() {
   constexpr int tunnels = 8, draws = 25;
   std::printf(
       "\nTruth within two stated sigmas, %d simulated tunnels of %d draws each: datum off by 2 mm, each scan by "
-      "1 mm more, all distances by a common 1 mm (one sigma each); four stations, 18 m.\n\n"
+      "1 mm more, all distances by a common 1 mm (one sigma each), and root mean square of errors over sigmas; four stations, 18 m.\n\n"
       "| clutter | overbreak | underbreak | excavated |\n|---|---|---|---|\n",
       tunnels, draws);
   for (const bool clutter : {false, true}) {
@@ -176,13 +185,16 @@ void bench_uncertainty() {
     for (int t = 1; t <= tunnels; ++t) {
       const Inside one = draws_of_tunnel(static_cast<std::uint64_t>(t), draws, clutter);
       sum.draws += one.draws;
-      sum.over += one.over;
-      sum.under += one.under;
-      sum.excavated += one.excavated;
+      for (const auto part : {&Inside::over, &Inside::under, &Inside::excavated}) {
+        (sum.*part).within += (one.*part).within;
+        (sum.*part).squares += (one.*part).squares;
+      }
     }
-    const auto share = [&](int count) { return 100.0 * count / sum.draws; };
-    std::printf("| %s | %.1f %% | %.1f %% | %.1f %% |\n", clutter ? "yes" : "no", share(sum.over), share(sum.under),
-                share(sum.excavated));
+    std::printf("| %s |", clutter ? "yes" : "no");
+    for (const auto part : {&Inside::over, &Inside::under, &Inside::excavated})
+      std::printf(" %.1f %%, %.2f |", 100.0 * (sum.*part).within / sum.draws,
+                  std::sqrt((sum.*part).squares / sum.draws));
+    std::printf("\n");
     std::fflush(stdout);
   }
 }

@@ -132,7 +132,7 @@ TEST(Section, AGapIsInterpolatedUpToItsLimitAndLeftOpenBeyond) {
   const DesignTunnel design = sample_design(circle_profile());
   const ProfileStretch stretch(design.profile_at(0.0));
   std::vector<MapCell> row(stretch.columns(0.1));
-  for (auto& cell : row) cell = {0.2F, 0.0F, 10, CellKind::measured};
+  for (auto& cell : row) cell = {0.2F, 0.0F, 10, 1.0F, CellKind::measured};
   for (std::size_t c = 50; c < 58; ++c) row[c] = MapCell{};    // 0.8 m
   for (std::size_t c = 120; c < 140; ++c) row[c] = MapCell{};  // 2 m
   const Outline outline = outline_of(row, stretch, 0.1, 1.0);
@@ -152,7 +152,7 @@ TEST(Section, WhatLiesOutsideACornerIsKept) {
                        {{{-2, 0}, {-2, 4}, 0}, {{-2, 4}, {2, 4}, 0}, {{2, 4}, {2, 0}, 0}, {{2, 0}, {-2, 0}, 0}});
   const ProfileStretch stretch(square);
   std::vector<MapCell> row(stretch.columns(0.1));
-  for (auto& cell : row) cell = {0.5F, 0.0F, 10, CellKind::measured};
+  for (auto& cell : row) cell = {0.5F, 0.0F, 10, 1.0F, CellKind::measured};
   const Outline outline = outline_of(row, stretch, 0.1, 1.0);
   const SectionAreas areas = section_areas(outline, stretch, 0.1, line_polygon(square, {"excavation", 0.0}));
   EXPECT_NEAR(areas.overbreak_m2, 16.0 * 0.5 + pi * 0.25, 0.03);
@@ -165,7 +165,7 @@ TEST(Section, AGapAtACornerInventsNoUnderbreak) {
   const ProfileStretch stretch(square);
   for (const float deviation_m : {0.0F, 0.1F}) {
     std::vector<MapCell> row(stretch.columns(0.1));
-    for (auto& cell : row) cell = {deviation_m, 0.0F, 10, CellKind::measured};
+    for (auto& cell : row) cell = {deviation_m, 0.0F, 10, 1.0F, CellKind::measured};
     for (std::size_t c = 0; c < row.size(); ++c) {
       const Eigen::Vector2d at = stretch.at((static_cast<double>(c) + 0.5) * 0.1).position;
       if ((at - Eigen::Vector2d(2.0, 4.0)).norm() < 0.45) row[c] = MapCell{};
@@ -187,7 +187,7 @@ TEST(Section, NoFanIsSpunAroundACornerFarOutside) {
   for (std::size_t c = 0; c < row.size(); ++c) {
     const ProfilePoint at = stretch.at((static_cast<double>(c) + 0.5) * 0.1);
     const bool crown_or_right = at.normal.y() > 0.99 || at.normal.x() > 0.99;
-    row[c] = {crown_or_right ? 2.0F : 0.0F, 0.0F, 10, CellKind::measured};
+    row[c] = {crown_or_right ? 2.0F : 0.0F, 0.0F, 10, 1.0F, CellKind::measured};
     if ((at.position - Eigen::Vector2d(2.0, 4.0)).norm() < 0.15) row[c] = MapCell{};
   }
   const Outline outline = outline_of(row, stretch, 0.1, 1.0);

@@ -61,7 +61,7 @@ TEST(DeviationMapDrawing, LooksAsItShould) {
 
 TEST(DeviationMapDrawing, ColoursAreAtTheirPlace) {
   DeviationMap map = small_map(80);
-  for (MapCell& cell : map.cells) cell = {0.05F, 0.0F, 5, CellKind::measured};
+  for (MapCell& cell : map.cells) cell = {0.05F, 0.0F, 5, 1.0F, CellKind::measured};
   for (std::size_t r = 0; r < 40; ++r)
     for (std::size_t c = 0; c < 20; ++c)
       map.cell(r, c).deviation_m = -0.15F;  // first half, left of the crown: upper left
