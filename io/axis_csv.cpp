@@ -26,7 +26,7 @@ Columns columns_of(const std::vector<std::string>& header) {
     const auto take = [&](std::optional<std::size_t>& column) {
       if (!column) column = i;
     };
-    if (begins(word, {"chain", "sta", "km", "pk"})) {
+    if (begins(word, {"chain", "sta"})) {
       take(columns.chainage);
     } else if (begins(word, {"el", "height", "z"}) || word == "h") {
       take(columns.elevation);
@@ -46,6 +46,7 @@ Columns columns_in(const CsvRows& rows, const std::filesystem::path& file) {
     rows.expect_fields(4, 4, form);
     return {0, 1, 2, 3, ""};
   }
+  rows.expect_metres();
   Columns columns = columns_of(rows.header());
   if (!columns.east || !columns.north)
     throw Error("the header names no east and north", file.string(), "write the columns as " + form);

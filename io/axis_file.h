@@ -35,6 +35,9 @@ struct AxisFile {
 /// The axis of that name, or the only one for an empty name. Throws its refusal, or Error listing the names.
 const FileAxis& named_axis(const AxisFile& file, const std::string& name);
 
+/// A note where the grade line leaves more than a metre of the axis without elevation, a warning where more than half.
+Findings grade_coverage(const Alignment& axis);
+
 /// As named_axis(); throws also when the axis has no grade line.
 Alignment choose_alignment(const AxisFile& file, const std::string& name);
 

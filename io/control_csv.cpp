@@ -14,7 +14,10 @@ std::vector<ControlPoint> read_control_csv(const std::filesystem::path& file) {
   std::vector<ControlPoint> points;
   std::map<std::string, int> line_of_id;
   while (rows.next()) {
-    if (points.empty()) rows.expect_header({"inp#", "ex", "ny", "ezhl"}, form);
+    if (points.empty()) {
+      rows.expect_metres();
+      rows.expect_header({"inp#", "ex", "ny", "ezhl"}, form);
+    }
     rows.expect_fields(4, 4, form);
     ControlPoint point{rows.text(0), {rows.coordinate(1), rows.coordinate(2), rows.coordinate(3)}};
     if (point.id.empty()) rows.lines().fail(rows.fields()[0], "the point has no id", "give every point an id");

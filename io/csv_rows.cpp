@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
 
 #include "core/foundation/error.h"
 
@@ -84,6 +85,24 @@ void CsvRows::expect_header(const std::vector<std::string>& letters, const std::
     if (header_[i].empty() || letters[i].find(header_[i][0]) != std::string::npos) continue;
     throw Error("column " + std::to_string(i + 1) + " is named " + quoted_word(header_[i]),
                 lines_.file().name() + ":" + std::to_string(header_line_), "write the columns as " + form);
+  }
+}
+
+void CsvRows::expect_metres() const {
+  static const std::set<std::string> units{"ft", "feet", "foot", "in", "inch", "inches",
+                                           "mm", "cm",   "km",   "yd", "usft"};
+  for (const std::string& word : header_) {
+    std::string token;
+    for (const char c : word + " ") {
+      if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+        token += c;
+        continue;
+      }
+      if (units.count(token) > 0)
+        throw Error("a column is named " + quoted_word(word), lines_.file().name() + ":" + std::to_string(header_line_),
+                    "write metres");
+      token.clear();
+    }
   }
 }
 

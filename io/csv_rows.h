@@ -31,6 +31,8 @@ class CsvRows {
 
   /// Throws Error with the place unless the row has `least` to `most` fields; `form` is the row as it should be.
   void expect_fields(std::size_t least, std::size_t most, const std::string& form) const;
+  /// Throws Error when a word of the header names a unit other than the metre: "east_ft", "chainage [mm]", "km".
+  void expect_metres() const;
   /// Throws Error when the header names another order: each of `letters` is what the word there may begin with.
   void expect_header(const std::vector<std::string>& letters, const std::string& form) const;
 

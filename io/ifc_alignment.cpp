@@ -156,6 +156,8 @@ FileAxis read_alignment(const IfcText& text, const Nesting& nesting, const IfcUn
           {Severity::warning, subject, "its cant is not honoured: " + error.what_is_wrong(), error.mend()});
     }
     read.axis.emplace(read.name, std::move(axis), std::move(grade), std::move(stations), std::move(cant));
+    const Findings coverage = grade_coverage(*read.axis);
+    read.findings.insert(read.findings.end(), coverage.begin(), coverage.end());
   } catch (const Error& error) {
     read.refusal.emplace(subject + ": " + error.what_is_wrong(),
                          error.where().empty() ? alignment.place : error.where(), error.mend());

@@ -54,6 +54,8 @@ HorizontalElement plan_element(const IfcText& text, const IfcInstance& segment, 
   element.end_curvature_per_m = element.kind == HorizontalKind::arc
                                     ? element.start_curvature_per_m
                                     : curvature_of(segment.number_at(5) * units.metres_per_unit);
+  if (element.kind == HorizontalKind::arc && segment.number_or(5, segment.number_at(4)) != segment.number_at(4))
+    segment.fail(name + " is an arc with two radii", "write it as a clothoid, or correct the radius");
   if (element.kind == HorizontalKind::arc && element.start_curvature_per_m == 0.0)
     segment.fail(name + " is an arc without radius", "correct it, or write it as a line");
   return element;
@@ -152,6 +154,8 @@ HorizontalAlignment plan_of(const IfcText& text, const IfcSegments& segments, co
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const std::string name = "segment " + std::to_string(i + 1);
     HorizontalElement element = plan_element(text, *segments[i], name, units, frame);
+    if (element.length_m < 0.0) segments[i]->fail(name + " has a negative length", "correct the segment");
+    if (element.length_m > 0.0) check_element(element, i);
     if (!elements.empty()) check_joint(elements.back(), element, segments[i]->place, subject, findings);
     if (std::abs(element.length_m) < nothing_m) continue;  // 4.3 closes an alignment with a segment of no length
     elements.push_back(std::move(element));

@@ -136,6 +136,11 @@ std::vector<JobRound> read_rounds(const JsonPlace& place) {
     if (!(round.to_m > round.from_m))
       one.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
     if (one.has("drilled")) round.drilled_m = one.at("drilled").number_between(0.1, 30.0, "m");
+    for (const JobRound& other : rounds) {
+      if (other.number == round.number) one.refuse("two rounds have this number", "number every round once");
+      if (round.from_m < other.to_m - 1e-9 && round.to_m > other.from_m + 1e-9)
+        one.refuse("it overlaps round " + std::to_string(other.number), "end a round where the next one begins");
+    }
     rounds.push_back(round);
   }
   return rounds;

@@ -64,7 +64,7 @@ FileAxis read_alignment(const LandXmlNode& node, std::size_t number) {
   try {
     const double stated_length_m = node.optional_length_m("length").value_or(0.0);
     LandXmlPlan plan = read_landxml_plan(node, subject);
-    LandXmlStations stations = read_landxml_stations(node, subject);
+    LandXmlStations stations = read_landxml_stations(node, plan.horizontal, subject);
     add(plan.findings, read.findings);
     add(stations.findings, read.findings);
     VerticalAlignment vertical = read_grade(node, subject, read);
@@ -72,6 +72,7 @@ FileAxis read_alignment(const LandXmlNode& node, std::size_t number) {
     read.axis.emplace(read.name, std::move(plan.horizontal), std::move(vertical), std::move(stations.stations),
                       std::move(cant));
     check_total_length(stated_length_m, subject, read);
+    add(grade_coverage(*read.axis), read.findings);
   } catch (const Error& error) {
     read.refusal = error;
   }

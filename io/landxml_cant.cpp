@@ -59,8 +59,18 @@ CantStation read_station(const LandXmlNode& cant, const LandXmlNode& node) {
 LandXmlCant read_cant(const LandXmlNode& node, const std::string& subject) {
   std::vector<CantStation> stations;
   for (const LandXmlNode& child : node.children("CantStation")) stations.push_back(read_station(node, child));
+  constexpr double least_cant_m = 1e-3, widest_gauge_m = 5.0;
+  double strongest_m = 0.0;
+  for (const CantStation& station : stations)
+    strongest_m = std::max(strongest_m, std::abs(station.left_m - station.right_m));
+  if (strongest_m > 0.0 && strongest_m < least_cant_m)
+    node.fail("its greatest cant would be " + short_number(1000.0 * strongest_m) + " mm: metres may be meant",
+              "write appliedCant in millimetres, inches in Imperial files");
+  const double gauge_m = node.length_m("gauge");
+  if (gauge_m > widest_gauge_m)
+    node.fail("a gauge of " + short_number(gauge_m) + " m", "write the distance from rail to rail in the file's unit");
   LandXmlCant read;
-  read.cant = Cant(std::move(stations), node.length_m("gauge"));
+  read.cant = Cant(std::move(stations), gauge_m);
   if (node.text("rotationPoint").empty())
     read.findings.push_back({Severity::note, subject, "its cant names no rotationPoint: the axis is taken", ""});
   const std::string unread = unread_children(node, {"CantStation", "SpeedStation"});
@@ -104,7 +114,16 @@ LandXmlCant read_landxml_cant(const LandXmlNode& alignment, const HorizontalAlig
   if (cants.size() + (curves.empty() ? 0 : 1) > 1)
     first.fail(subject + " has several descriptions of its cant", "leave the one that is to be built");
   try {
-    if (!cants.empty()) return read_cant(first, subject);
+    if (!cants.empty()) {
+      LandXmlCant read = read_cant(first, subject);
+      const auto& stations = read.cant.stations();
+      if (!stations.empty() &&
+          (stations.back().chainage_m < plan.from_m() || stations.front().chainage_m > plan.to_m()))
+        first.fail("its cant stations lie beside the axis, which runs from " + short_number(plan.from_m()) + " to " +
+                       short_number(plan.to_m()),
+                   "give internal stations");
+      return read;
+    }
     std::vector<CantStation> stations;
     for (const LandXmlNode& node : curves) add_curve(node, plan, stations);
     return {Cant(std::move(stations), 1.0),

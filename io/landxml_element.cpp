@@ -1,5 +1,6 @@
 #include "io/landxml_element.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -130,6 +131,9 @@ void read_spiral(const LandXmlNode& node, LandXmlElement& element) {
   if (spiral.length_m <= 0.0) node.fail(spiral.name + " has no length", "remove it or give its length");
   spiral.start_curvature_per_m = sense * std::abs(k0);
   spiral.end_curvature_per_m = sense * std::abs(k1);
+  constexpr double most_turns_rad = 20.0 * pi;  // before anything is integrated
+  if (std::max(std::abs(k0), std::abs(k1)) * spiral.length_m > most_turns_rad)
+    node.fail(spiral.name + " turns by more than ten circles", "check its length, radii and unit");
   if (spiral.kind == HorizontalKind::cubic_parabola) fit_parabola(node, element);
   spiral.azimuth_rad = spiral_azimuth(node, spiral, element.stated_end);
 

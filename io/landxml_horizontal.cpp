@@ -39,6 +39,7 @@ void add_polyline(const LandXmlNode& node, const std::string& name, const std::s
     sharpest_rad = std::max(sharpest_rad, std::abs(bend));
   }
   elements.list.insert(elements.list.end(), pieces.begin(), pieces.end());
+  if (sharpest_rad < reported_kink_rad) return;
   elements.findings.push_back({Severity::warning, subject + ", " + name,
                                "is " + std::to_string(pieces.size()) + " straight pieces, which bend by up to " +
                                    short_number(std::round(deg_from_rad(sharpest_rad) * 1e4) / 1e4) + " degrees",

@@ -28,7 +28,8 @@ StationEquation read_equation(const LandXmlNode& node) {
 Finding jump(const StationEquation& equation, double back_m, const std::string& subject) {
   const std::string at = "the station equation at chainage " + metres(equation.chainage_m);
   if (equation.decreasing)
-    return {Severity::note, subject, at + " lets stations fall from " + metres(equation.ahead_m) + " on", ""};
+    return {Severity::warning, subject, at + " lets stations fall from " + metres(equation.ahead_m) + " on",
+            "stations may occur twice: tell them apart by the chainage that stands beside every station"};
   const std::string both =
       metres(std::min(back_m, equation.ahead_m)) + " to " + metres(std::max(back_m, equation.ahead_m));
   if (equation.ahead_m < back_m)
@@ -39,7 +40,8 @@ Finding jump(const StationEquation& equation, double back_m, const std::string& 
 
 }  // namespace
 
-LandXmlStations read_landxml_stations(const LandXmlNode& alignment, const std::string& subject) {
+LandXmlStations read_landxml_stations(const LandXmlNode& alignment, const HorizontalAlignment& plan,
+                                      const std::string& subject) {
   LandXmlStations read;
   const std::vector<LandXmlNode> nodes = alignment.children("StaEquation");
   std::vector<StationEquation> equations;
@@ -59,6 +61,12 @@ LandXmlStations read_landxml_stations(const LandXmlNode& alignment, const std::s
                                    " states a station back of " + metres(*stated) + ", the equations before it give " +
                                    metres(back_m),
                                "its place and the station ahead are used; ask which is meant"});
+    if (equations[i].chainage_m < plan.from_m() || equations[i].chainage_m > plan.to_m())
+      read.findings.push_back({Severity::warning, subject,
+                               "the station equation at chainage " + metres(equations[i].chainage_m) +
+                                   " lies beside the axis, which runs from " + metres(plan.from_m()) + " to " +
+                                   metres(plan.to_m()),
+                               "give its internal station"});
     if (std::abs(back_m - equations[i].ahead_m) > reported_m || equations[i].decreasing)
       read.findings.push_back(jump(equations[i], back_m, subject));
   }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/design/horizontal_alignment.h"
 #include "core/design/station_equations.h"
 #include "core/foundation/finding.h"
 #include "io/landxml_node.h"
@@ -15,6 +16,7 @@ struct LandXmlStations {
 };
 
 /// `subject` names the alignment. Throws Error with the line when an equation lacks a number or goes back.
-LandXmlStations read_landxml_stations(const LandXmlNode& alignment, const std::string& subject);
+LandXmlStations read_landxml_stations(const LandXmlNode& alignment, const HorizontalAlignment& plan,
+                                      const std::string& subject);
 
 }  // namespace adit::io

@@ -97,6 +97,8 @@ Profile profile_of(const nlohmann::json& json, const std::string& file, const Pr
     for (const JsonPlace& pair : root.at("where").items()) {
       const std::vector<JsonPlace> parts = pair.items();
       if (parts.size() != 2) pair.refuse("a name and a formula are needed", "write [\"r\", \"width/2\"]");
+      if (sizes.find(parts[0].text()) != sizes.end())
+        parts[0].refuse("this name is taken by a size or an earlier formula", "choose another one");
       sizes[parts[0].text()] = value_of(parts[1], sizes);
     }
   std::vector<ProfileSegment> segments;

@@ -88,7 +88,10 @@ RingFile read_table(const std::filesystem::path& file, double target_offset_m) {
   Columns columns;
   bool first = true;
   while (rows.next()) {
-    if (first) columns = columns_of(rows.header());
+    if (first) {
+      rows.expect_metres();
+      columns = columns_of(rows.header());
+    }
     first = false;
     if (!columns.ring || !columns.point || !columns.east || !columns.north || !columns.elevation)
       throw Error("the header lacks a column", file.string(), "write the columns as " + form);

@@ -183,6 +183,8 @@ Action declare_axis(CLI::App& command) {
   command.add_option("--start", arguments->start_m, "chainage of the first point, for files that state none [m]")
       ->check(CLI::Range(-1e6, 1e7));
   return [arguments](const CommonOptions& common, Progress&) {
+    if (!std::isfinite(arguments->every_m))
+      throw Error("no number of metres", "--every", "write one, for instance 1.0");
     const io::AxisFile file = io::read_axis(arguments->file, arguments->start_m);
     const io::FileAxis& read = io::named_axis(file, arguments->name);
     if (!common.quiet) print_findings(file, read);

@@ -58,14 +58,21 @@ void add_volumes(std::string& text, const VolumeResult& result) {
   }
 }
 
+std::string millimetres(double metres) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.1f mm", 1e3 * metres);
+  return text;
+}
+
 void add_rings(std::string& text, const RingsResult& result) {
   add(text, "\nRings: %zu (deviations of the centre: right and up positive)\n", result.rings.size());
   add(text, "  %-10s %12s %10s %10s %10s %10s %8s %7s\n", "ring", "chainage", "horizontal", "vertical", "radius",
       "ovality", "rms", "points");
   for (const RingResult& ring : result.rings)
-    add(text, "  %-10s %12.3f %7.1f mm %7.1f mm %9.4f m %7.1f mm %5.1f mm %7zu\n", ring.ring.c_str(), ring.chainage_m,
-        1e3 * ring.horizontal_deviation_m, 1e3 * ring.vertical_deviation_m, ring.radius_m, 1e3 * ring.ovality_m,
-        1e3 * ring.rms_m, ring.residuals.size());
+    add(text, "  %-10s %12.3f %7.1f mm %7.1f mm %9.4f m %10s %5.1f mm %7zu\n", ring.ring.c_str(), ring.chainage_m,
+        1e3 * ring.horizontal_deviation_m, 1e3 * ring.vertical_deviation_m, ring.radius_m,
+        std::isfinite(ring.ovality_m) ? millimetres(ring.ovality_m).c_str() : "-", 1e3 * ring.rms_m,
+        ring.residuals.size());
 }
 
 /// "-" for what could not be compared.

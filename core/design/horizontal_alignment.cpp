@@ -14,6 +14,7 @@ constexpr double longest_stretch_m = 1.0;
 constexpr double widest_stretch_rad = 0.1;
 constexpr double end_tolerance_m = 1e-3;
 constexpr double longest_axis_m = 1e6;  // keeps a wrong unit from taking all memory
+constexpr double farthest_m = 1e8;      // of chainages and coordinates: beyond it digits are lost
 
 std::string metres(double value) {
   return short_number(std::round(value * 1000.0) / 1000.0);
@@ -46,11 +47,13 @@ PlanKnot knot_of(const HorizontalElement& element, double along_m, double length
 HorizontalAlignment::HorizontalAlignment(std::vector<HorizontalElement> elements, double start_chainage_m)
     : elements_(std::move(elements)), start_chainage_m_(start_chainage_m) {
   if (elements_.empty()) throw Error("the plan axis has no elements");
-  if (!std::isfinite(start_chainage_m))
-    throw Error("the start chainage of the plan axis is not finite", {}, "write it in metres");
+  if (!std::isfinite(start_chainage_m) || std::abs(start_chainage_m) > farthest_m)
+    throw Error("the start chainage of the plan axis is not finite or beyond 100,000 km", {}, "write it in metres");
   double length = 0.0;
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     check_element(elements_[i], i);
+    if (elements_[i].start.cwiseAbs().maxCoeff() > farthest_m)
+      throw Error(elements_[i].name + " has a coordinate beyond 100,000 km", {}, "write coordinates in metres");
     length += elements_[i].length_m;
   }
   if (length > longest_axis_m) throw Error("the plan axis is longer than 1000 km", {}, "check the unit of its lengths");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/design/transition_curve.h"
+#include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "core/foundation/options.h"
 
@@ -115,6 +116,9 @@ void check_element(const HorizontalElement& element, std::size_t number) {
                 "check its radius and unit");
   }
   if (element.length_m <= 0.0) throw Error(name + " has no length", {}, "leave elements of no length out");
+  constexpr double most_turns_rad = 20.0 * pi;
+  if (strongest_curvature(element) * element.length_m > most_turns_rad)
+    throw Error(name + " turns by more than ten circles", {}, "check its length, radius and unit");
   if (element.kind == HorizontalKind::cubic_parabola) check_parabola(element, name);
 }
 

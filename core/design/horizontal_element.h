@@ -47,7 +47,7 @@ struct PlanPoint {
 PlanPoint element_point(const HorizontalElement& element, double along_m);
 
 /// Throws Error, naming the element (or its number, counted from 0), when a number is not finite, it has no length, a
-/// radius under 0.5 m, or is a cubic parabola that reaches its least radius.
+/// radius under 0.5 m, turns by more than ten circles, or is a cubic parabola that reaches its least radius.
 void check_element(const HorizontalElement& element, std::size_t number);
 
 /// Greatest curvature to either side anywhere on it.

@@ -131,8 +131,9 @@ void advance(PointAxis& axis, std::size_t point, double stated_m, std::vector<Ho
   for (std::size_t e = first; e < elements.size(); ++e) length += elements[e].length_m;
   const double off = std::abs(stated_m - length);
   if (off > refused_advance_m)
-    throw Error("the chainage advances by " + short_number(std::round(stated_m * 1e4) / 1e4) + " m up to " + point_words(point) +
-                    ", the points lie " + short_number(std::round(length * 1e4) / 1e4) + " m apart",
+    throw Error("the chainage advances by " + short_number(std::round(stated_m * 1e4) / 1e4) + " m up to " +
+                    point_words(point) + ", the points lie " + short_number(std::round(length * 1e4) / 1e4) +
+                    " m apart",
                 {}, "correct the chainages, or the coordinates");
   if (off > axis.worst_advance_m) {
     axis.worst_advance_m = off;
@@ -200,9 +201,15 @@ std::vector<std::size_t> knots_of(const Points& points, const Run& run) {
 std::vector<double> feet_of(const Points& points, const std::vector<std::size_t>& knots,
                             const std::vector<double>& knot_chainages_m, const HorizontalAlignment& horizontal) {
   std::vector<double> chainages;
-  for (std::size_t i = 0, k = 1; i < points.size(); ++i) {
-    while (k + 1 < knots.size() && i > knots[k]) ++k;
-    const auto foot = horizontal.foot(points[i], 0.5 * (knot_chainages_m[k - 1] + knot_chainages_m[k]));
+  double along = 0.0;  // length of the chords since the knot before
+  for (std::size_t i = 0, k = 0; i < points.size(); ++i) {
+    if (k < knots.size() && i == knots[k]) {  // the axis goes through it
+      chainages.push_back(knot_chainages_m[k++]);
+      along = 0.0;
+      continue;
+    }
+    along += (points[i] - points[i - 1]).norm();
+    const auto foot = horizontal.foot(points[i], knot_chainages_m[k - 1] + along);
     if (!foot || (i > 0 && foot->chainage_m <= chainages.back()))
       throw Error("the axis turns back at " + point_words(i), {}, "list the points in order of chainage");
     chainages.push_back(foot->chainage_m);

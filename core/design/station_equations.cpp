@@ -19,8 +19,10 @@ double ahead_of(const StationEquation& equation, double chainage_m) {
 StationEquations::StationEquations(std::vector<StationEquation> equations) : equations_(std::move(equations)) {
   for (std::size_t i = 0; i < equations_.size(); ++i) {
     const double chainage_m = equations_[i].chainage_m;
-    if (!std::isfinite(chainage_m) || !std::isfinite(equations_[i].ahead_m))
-      throw Error("station equation " + std::to_string(i + 1) + " holds a number that is not finite");
+    constexpr double farthest_m = 1e8;
+    if (!(std::abs(chainage_m) <= farthest_m) || !(std::abs(equations_[i].ahead_m) <= farthest_m))
+      throw Error("station equation " + std::to_string(i + 1) +
+                  " holds a number that is not finite or beyond 100,000 km");
     if (i > 0 && chainage_m <= equations_[i - 1].chainage_m) {
       throw Error("the station equation at chainage " + short_number(chainage_m) +
                       " goes back: the one before it stands at " + short_number(equations_[i - 1].chainage_m),

@@ -24,6 +24,9 @@ void check(const VerticalPoint& point) {
                       std::isfinite(point.curve_length_m) && std::isfinite(point.radius_m) &&
                       std::isfinite(point.length_in_m);
   if (!finite) throw Error("a point of the grade line holds a number that is not finite");
+  constexpr double highest_m = 1e5;
+  if (std::abs(point.elevation_m) > highest_m)
+    throw Error(point_at(point) + " lies higher or lower than 100 km", {}, "write station and elevation in metres");
   if (point.curve == VerticalCurveKind::parabola && point.curve_length_m < 0.0) {
     throw Error(point_at(point) + " has a curve of negative length", {}, "write its length without a sign");
   }

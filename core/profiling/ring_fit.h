@@ -39,4 +39,9 @@ struct RingFit {
 /// points, they lie on one line, or the circle is larger than a kilometre.
 RingFit fit_ring(const std::vector<RingPlace>& places, const Eigen::Vector3d& along);
 
+/// Points that lie off the circle of most: of the circles through three points the one whose median residual is least
+/// (Rousseeuw 1984; all triples of up to 20 points, 1000 drawn ones of more, always the same), off by more than 30 mm,
+/// 2 % of the radius and three of its robust sigmas. None of fewer than six.
+std::vector<std::size_t> ring_outliers(const std::vector<RingPlace>& places, const Eigen::Vector3d& along);
+
 }  // namespace adit

@@ -13,7 +13,7 @@ namespace adit {
 namespace {
 
 constexpr double largest_tilt_deg = 5.0;
-constexpr double least_blunder_m = 0.01;
+constexpr double largest_harm_m = 0.01;
 
 using Ring = std::vector<const RingPoint*>;
 
@@ -35,10 +35,9 @@ Directions directions_at(const Alignment& axis, double chainage_m) {
   return {along, right, right.cross(along)};
 }
 
-std::vector<RingPlace> places_of(const Ring& ring, const RingPoint* left_out = nullptr) {
+std::vector<RingPlace> places_of(const Ring& ring) {
   std::vector<RingPlace> places;
-  for (const RingPoint* point : ring)
-    if (point != left_out) places.push_back(point->place);
+  for (const RingPoint* point : ring) places.push_back(point->place);
   return places;
 }
 
@@ -48,20 +47,70 @@ TunnelPoint at_axis(const Alignment& axis, const Eigen::Vector3d& place) {
   return *at;
 }
 
-/// A point without which the others fit far better: named, not left out.
-void look_for_blunder(const Ring& ring, const RingFit& fit, const Directions& tunnel, const std::string& subject,
-                      Findings& findings) {
-  if (ring.size() < 6) return;
-  const auto worst = std::max_element(fit.residuals_m.begin(), fit.residuals_m.end(),
-                                      [](double a, double b) { return std::abs(a) < std::abs(b); });
-  const RingPoint* point = ring[static_cast<std::size_t>(worst - fit.residuals_m.begin())];
-  const RingFit others = fit_ring(places_of(ring, point), tunnel.along);
-  const double off = (point->place.position - others.center).norm() + point->place.target_offset_m - others.radius_m;
-  if (std::abs(off) < least_blunder_m || std::abs(off) < 3.0 * 3.0 * others.rms_m) return;
-  findings.push_back({Severity::warning, subject,
-                      "point " + point->point + " lies " + millimetres(off) +
-                          " off the circle of the others, which fit to " + millimetres(others.rms_m),
-                      "measure it again, or take it out of the file"});
+/// Names of points, "3, 4 and 7".
+std::string names_of(const Ring& ring, const std::vector<std::size_t>& which) {
+  std::string names;
+  for (std::size_t i = 0; i < which.size(); ++i)
+    names += (i == 0 ? "" : i + 1 == which.size() ? " and " : ", ") + ring[which[i]]->point;
+  return (which.size() == 1 ? "point " : "points ") + names;
+}
+
+/// Points that do not fit to the circle of most: named, not left out.
+void look_for_blunders(const Ring& ring, const RingFit& fit, const Directions& tunnel, const std::string& subject,
+                       Findings& findings) {
+  const std::vector<std::size_t> off = ring_outliers(places_of(ring), tunnel.along);
+  if (off.empty()) return;
+  std::vector<RingPlace> rest;
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    if (std::find(off.begin(), off.end(), i) == off.end()) rest.push_back(ring[i]->place);
+  const RingFit others = fit_ring(rest, tunnel.along);
+  double farthest = 0.0;
+  for (const std::size_t i : off)
+    farthest = std::max(farthest, std::abs((ring[i]->place.position - others.center).norm() +
+                                           ring[i]->place.target_offset_m - others.radius_m));
+  const double moved = (others.center - fit.center).norm();
+  const double change = std::max(moved, std::abs(others.radius_m - fit.radius_m));
+  findings.push_back({change > largest_harm_m ? Severity::decision : Severity::warning, subject,
+                      names_of(ring, off) + (off.size() == 1 ? " lies " : " lie up to ") + millimetres(farthest) +
+                          " off the circle of the other " + std::to_string(rest.size()) + ", which fit to " +
+                          millimetres(others.rms_m) + "; without, the centre moves by " + millimetres(moved),
+                      "measure again, or take out of the file what is no ring"});
+}
+
+/// What makes a circle doubtful or none at all.
+void judge(const Ring& ring, const RingFit& fit, const RingResult& result, const RingDesign& design,
+           const std::string& subject, Findings& findings) {
+  const auto say = [&](bool decision, const std::string& words, const std::string& mend) {
+    findings.push_back({decision ? Severity::decision : Severity::warning, subject, words, mend});
+  };
+  constexpr double largest_rms_m = 0.05, share_of_radius = 0.02, thickest_m = 0.25, smallest_radius_m = 0.2;
+  constexpr double weak_center_m = 0.01, unknown_center_m = 0.02, turned_deg = 30.0, design_share = 0.1;
+  if (ring.size() == 3) say(false, "three points give a circle that nothing checks", "measure more");
+  if (result.tilt_deg > largest_tilt_deg)
+    say(result.tilt_deg > turned_deg,
+        "its plane is tilted by " + short_number(std::round(result.tilt_deg * 10.0) / 10.0) +
+            " degrees against the axis",
+        result.tilt_deg > turned_deg ? "east and north may be exchanged; measure its points in one plane"
+                                     : "measure its points in one plane");
+  if (fit.out_of_plane_m > thickest_m)
+    say(true, "its points lie " + millimetres(fit.out_of_plane_m) + " (rms) beside one plane",
+        "give every ring a name of its own");
+  if (fit.rms_m > std::max(largest_rms_m, share_of_radius * fit.radius_m))
+    say(true, "its points make no circle: they lie " + millimetres(fit.rms_m) + " (rms) beside the best one",
+        "check its points");
+  if (fit.sigma_center_m > weak_center_m)
+    say(fit.sigma_center_m > unknown_center_m,
+        "its centre is known to " + millimetres(fit.sigma_center_m) + " only (one sigma)",
+        "measure points all around the ring");
+  if (fit.radius_m < smallest_radius_m)
+    say(true, "a radius of " + millimetres(fit.radius_m), "write coordinates in metres");
+  if (design.radius_m > 0.0 && std::abs(fit.radius_m - design.radius_m) > design_share * design.radius_m)
+    say(true,
+        "its radius of " + short_number(std::round(fit.radius_m * 1000.0) / 1000.0) + " m is far from the design's " +
+            short_number(design.radius_m) + " m",
+        "check \"radius\" and the unit of the points");
+  if (std::hypot(result.horizontal_deviation_m, result.vertical_deviation_m) > fit.radius_m)
+    say(true, "its centre lies farther from its place than its radius", "check \"center\", the axis and the points");
 }
 
 RingResult result_of(const std::string& name, const Ring& ring, const Alignment& axis, const RingDesign& design,
@@ -90,14 +139,8 @@ RingResult result_of(const std::string& name, const Ring& ring, const Alignment&
   for (std::size_t i = 0; i < ring.size(); ++i)
     result.residuals.push_back(
         {ring[i]->point, tunnel.clock_deg(ring[i]->place.position - fit.center), fit.residuals_m[i]});
-  if (ring.size() == 3)
-    findings.push_back({Severity::warning, subject, "three points give a circle that nothing checks", "measure more"});
-  if (result.tilt_deg > largest_tilt_deg)
-    findings.push_back({Severity::warning, subject,
-                        "its plane is tilted by " + short_number(std::round(result.tilt_deg * 10.0) / 10.0) +
-                            " degrees against the axis",
-                        "measure its points in one plane"});
-  look_for_blunder(ring, fit, tunnel, subject, findings);
+  look_for_blunders(ring, fit, tunnel, subject, findings);
+  judge(ring, fit, result, design, subject, findings);
   return result;
 }
 

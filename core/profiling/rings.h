@@ -57,8 +57,7 @@ struct RingsResult {
 };
 
 /// Fits every ring. What makes no ring (too few points, on one line, no foot on the axis) is a decision and gives no
-/// numbers; three points, a point that fits three times worse than the others allow, and planes that are tilted by
-/// more than 5 degrees are warnings.
+/// numbers; what makes its numbers doubtful is a decision or a warning beside them (docs/formats.md, rings).
 RingsResult fit_rings(const std::vector<RingPoint>& points, const Alignment& axis, const RingDesign& design,
                       Progress& progress);
 

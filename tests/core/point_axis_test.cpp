@@ -113,6 +113,8 @@ TEST(PointAxis, PointsTooFarApartForTheCurveAreJoinedStraight) {
   EXPECT_FALSE(axis.smooth);
   EXPECT_GT(axis.sharpest_bend_rad, 0.05);
   EXPECT_EQ(axis.horizontal.elements().size(), list.points.size() - 1);
+  const PointAxis far_apart = axis_through({{0, 0}, {100, 0}, {200, 0}}, {}, 50.0);
+  EXPECT_NEAR(far_apart.chainages_m[2], 250.0, 1e-9);
   const PointAxis straight = axis_through({{0, 0}, {0, 100}}, {500, 600}, 0.0);
   EXPECT_NEAR(straight.horizontal.at(550).position.y(), 50, 1e-12);
 }

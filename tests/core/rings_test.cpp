@@ -137,6 +137,19 @@ TEST(Rings, WhatIsDoubtfulIsNamed) {
   auto blunder = ring_at(axis, 1030.0, {0, 0}, 9, round);
   blunder[4].place.position.z() += 0.05;
   EXPECT_NE(said(fitted(blunder, axis)).find("point 5 lies"), std::string::npos);
+  auto two_off = ring_at(axis, 1030.0, {0, 0}, 12, [](double) { return 3.0; });
+  const Eigen::Vector3d center = axis.to_site({1030.0, 0.0, 0.0});
+  for (const std::size_t i : {2U, 3U}) two_off[i].place.position -= (two_off[i].place.position - center).normalized();
+  const RingsResult masked = fitted(two_off, axis);
+  EXPECT_EQ(masked.findings.at(0).severity, Severity::decision);
+  EXPECT_NE(masked.findings.at(0).words.find("points 3 and 4 lie up to 1000 mm"), std::string::npos);
+  auto both = ring_at(axis, 1030.0, {0, 0}, 8, round, "7");
+  for (const RingPoint& point : ring_at(axis, 1060.0, {0, 0}, 8, round, "7")) both.push_back(point);
+  EXPECT_NE(said(fitted(both, axis)).find("beside one plane"), std::string::npos);
+  const RingsResult wrong_radius = fitted(ring_at(axis, 1030.0, {0, 0}, 8, round), axis, {0.0, 0.0, 20.0});
+  EXPECT_EQ(wrong_radius.findings.at(0).severity, Severity::decision);
+  EXPECT_NE(said(fitted(ring_at(axis, 1030.0, {0, 9}, 8, round), axis)).find("farther from its place"),
+            std::string::npos);
   auto line = ring_at(axis, 1030.0, {0, 0}, 3, round);
   line[1].place.position = 0.5 * (line[0].place.position + line[2].place.position);
   EXPECT_NE(said(fitted(line, axis)).find("one line"), std::string::npos);

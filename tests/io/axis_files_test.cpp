@@ -48,6 +48,8 @@ TEST_F(AxisFiles, ATableNeedsWhatItLacksAndNoMore) {
   expect_words(refusal("c.csv", "0,0,0\n50,0,50\n"), {"c.csv:1", "3 fields", "chainage,east,north,elevation"});
   expect_words(refusal("d.csv", "chainage,east,north\n0,0,word\n"), {"d.csv:2:5", "word"});
   expect_words(refusal("e.csv", "# nothing\n"), {"no points"});
+  for (const char* header : {"chainage_ft,east_ft,north_ft", "chainage,east (mm),north (mm)", "km,east,north"})
+    EXPECT_NE(refusal("u.csv", std::string(header) + "\n0,0,0\n10,10,0\n"), "") << header;
   expect_words(error_of([&] { choose_alignment(read("f.csv", "chainage,east,north\n0,0,0\n50,0,50\n"), ""); }),
                {"no grade line"});
   expect_words(refusal("g.las", ""), {"not from \".las\""});
@@ -198,7 +200,8 @@ TEST_F(AxisFiles, IfcCountsToTheLeftAndIsTurnedRound) {
   EXPECT_NEAR(axis.to_site({25, 2, 0}).y(), -2, 1e-9);  // right of an axis to the east lies south
   EXPECT_NEAR(axis.vertical().at(150).elevation_m, 13 + 0.75, 1e-9);
   EXPECT_NEAR(axis.vertical().at(150).grade, 0.0, 1e-9);
-  EXPECT_TRUE(file.axes[0].findings.empty());
+  ASSERT_EQ(file.axes[0].findings.size(), 1U);
+  expect_words(file.axes[0].findings[0].words, {"grade line runs from 0 to 200, its plan from 0 to 285.619"});
 }
 
 TEST_F(AxisFiles, IfcInOtherUnitsAndOtherPlaces) {
