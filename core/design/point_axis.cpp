@@ -238,7 +238,7 @@ void take_note_of(const Points& points, const Run& run, PointAxis& axis) {
   axis.worst_scatter_m = std::max(axis.worst_scatter_m, run.worst_m);
   axis.scatter_m = std::max(axis.scatter_m, run.scatter_m);
   if (run.smooth) return;
-  if (run.last - run.first >= 4) axis.smooth = false;
+  if (run.last - run.first >= 2) axis.smooth = false;  // it may bend between its ends
   for (std::size_t i = run.first + 1; i < run.last; ++i)
     axis.sharpest_bend_rad = std::max(axis.sharpest_bend_rad, bend_at(points, i));
 }

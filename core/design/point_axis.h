@@ -14,7 +14,7 @@ struct PointAxis {
   HorizontalAlignment horizontal;
   std::vector<double> chainages_m;   ///< of the points: as given, or along the axis
   std::vector<std::size_t> corners;  ///< points where it bends all at once
-  bool smooth = false;               ///< pairs of arcs in all runs of five points and more; false: some are straight
+  bool smooth = false;               ///< pairs of arcs in all runs of three points and more; false: some are straight
   double scatter_m = 0.0;            ///< median distance of a point from the cubic through its four neighbours
   double worst_scatter_m = 0.0;      ///< likewise the greatest: noise, or points too far apart for the curve
   double sharpest_bend_rad = 0.0;    ///< at corners and between straight pieces

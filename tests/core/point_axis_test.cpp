@@ -113,6 +113,9 @@ TEST(PointAxis, PointsTooFarApartForTheCurveAreJoinedStraight) {
   EXPECT_FALSE(axis.smooth);
   EXPECT_GT(axis.sharpest_bend_rad, 0.05);
   EXPECT_EQ(axis.horizontal.elements().size(), list.points.size() - 1);
+  const PointAxis few = axis_through({{500, 1000}, {500, 1050}, {510, 1100}, {530, 1150}}, {}, 0.0);
+  EXPECT_FALSE(few.smooth);
+  EXPECT_GT(few.sharpest_bend_rad, 0.18);
   const PointAxis far_apart = axis_through({{0, 0}, {100, 0}, {200, 0}}, {}, 50.0);
   EXPECT_NEAR(far_apart.chainages_m[2], 250.0, 1e-9);
   const PointAxis straight = axis_through({{0, 0}, {0, 100}}, {500, 600}, 0.0);
