@@ -126,6 +126,14 @@ void check_design(const JobState& state) {
     throw Error("\"profile\" without \"alignment\"", file, "name the alignment file, too");
   if (job.chainage && !state.has_design())
     throw Error("\"chainage\" without \"alignment\" and \"profile\"", file, "name both files, too");
+  if (job.alignment_start_m && !state.alignment)
+    throw Error("\"alignment_start\" without \"alignment\"", file, "name the alignment file, too");
+  const bool for_volumes = job.turned_by_cant || job.swell > 0.0 || job.sectors != standard_sectors();
+  if (for_volumes && !state.has_design())
+    throw Error("\"cant\", \"swell\" or \"sectors\" without \"alignment\" and \"profile\"", file,
+                "name both files, too");
+  if (job.swell > 0.0 && job.rounds.empty())
+    throw Error("\"swell\" without \"rounds\"", file, "it is used for the loose volume of rounds");
   if (!state.alignment) return;
   if (job.chainage) check_range(state, "chainage", job.chainage->from_m, job.chainage->to_m);
   for (std::size_t i = 0; i < job.rounds.size(); ++i)

@@ -64,7 +64,7 @@ void read_alignment(JobState& state) {
   const io::AxisFile file = io::read_axis(state.folder / job.alignment, job.alignment_start_m);
   state.alignment = io::choose_alignment(file, job.alignment_name);
   add(file.findings, state.input_findings);
-  const io::FileAxis& axis = io::named_axis(file, job.alignment_name);
+  const io::AxisOfFile& axis = io::named_axis(file, job.alignment_name);
   if (job.turned_by_cant && axis.cant_refusal) throw Error(*axis.cant_refusal);
   add(axis.findings, state.input_findings);
 }

@@ -30,9 +30,12 @@ std::vector<DxfLine> in_metres(const DxfDrawing& drawing) {
 
 /// As it was drawn, whichever end the chain was walked from.
 DxfLine as_drawn(DxfLine line) {
-  if (line.pieces_reversed == 0) return line;
-  if (line.pieces_reversed < line.pieces)
-    throw Error("its " + std::to_string(line.pieces) + " pieces are drawn in different directions", {},
+  if (line.directed == 0)
+    throw Error("it is drawn of arcs alone, which do not say where it begins", {},
+                "join them to one polyline that runs up-chainage");
+  if (line.reversed == 0) return line;
+  if (line.reversed < line.directed)
+    throw Error("its " + std::to_string(line.directed) + " lines are drawn in different directions", {},
                 "join them to one polyline that runs up-chainage");
   line.segments = reversed(line.segments);
   std::reverse(line.heights.begin(), line.heights.end());
@@ -94,9 +97,9 @@ Alignment alignment_of(const std::string& name, const DxfLine& line, double star
                    grade.empty() ? VerticalAlignment() : VerticalAlignment(std::move(grade)));
 }
 
-FileAxis axis_of(const std::string& name, const DxfLine& chain, const std::optional<double>& start_chainage_m,
-                 const std::string& file) {
-  FileAxis read;
+AxisOfFile axis_of(const std::string& name, const DxfLine& chain, const std::optional<double>& start_chainage_m,
+                   const std::string& file) {
+  AxisOfFile read;
   read.name = name;
   try {
     const DxfLine line = as_drawn(chain);

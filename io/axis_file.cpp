@@ -10,16 +10,16 @@ namespace {
 
 std::string names_of(const AxisFile& file) {
   std::string names;
-  for (const FileAxis& axis : file.axes) names += (names.empty() ? "\"" : ", \"") + axis.name + "\"";
+  for (const AxisOfFile& axis : file.axes) names += (names.empty() ? "\"" : ", \"") + axis.name + "\"";
   return names;
 }
 
 }  // namespace
 
-const FileAxis& named_axis(const AxisFile& file, const std::string& name) {
+const AxisOfFile& named_axis(const AxisFile& file, const std::string& name) {
   if (file.axes.empty()) throw Error("the file holds no alignment", file.file, "export the axis with its geometry");
-  const FileAxis* found = nullptr;
-  for (const FileAxis& axis : file.axes) {
+  const AxisOfFile* found = nullptr;
+  for (const AxisOfFile& axis : file.axes) {
     if (!name.empty() && axis.name != name) continue;
     if (found != nullptr) {
       throw Error(name.empty() ? "the file holds several alignments" : "several alignments are named \"" + name + "\"",
@@ -50,7 +50,7 @@ Findings grade_coverage(const Alignment& axis) {
 }
 
 Alignment choose_alignment(const AxisFile& file, const std::string& name) {
-  const FileAxis& chosen = named_axis(file, name);
+  const AxisOfFile& chosen = named_axis(file, name);
   if (chosen.grade_refusal) throw Error(*chosen.grade_refusal);
   if (chosen.axis->vertical().empty()) {
     throw Error("alignment " + chosen.name + " has no grade line", file.file, "export it with its Profile");

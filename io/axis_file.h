@@ -13,7 +13,7 @@
 namespace adit::io {
 
 /// One axis of a file: its geometry, or why it was refused.
-struct FileAxis {
+struct AxisOfFile {
   std::string name;
   /// Metres, east and north as x and y. Without grade line when the file has none or it was refused; empty when the
   /// plan was refused.
@@ -28,12 +28,12 @@ struct FileAxis {
 struct AxisFile {
   std::string file;
   std::string format;  ///< "LandXML", for people
-  std::vector<FileAxis> axes;
+  std::vector<AxisOfFile> axes;
   Findings findings;  ///< what of the file is not read (notes)
 };
 
 /// The axis of that name, or the only one for an empty name. Throws its refusal, or Error listing the names.
-const FileAxis& named_axis(const AxisFile& file, const std::string& name);
+const AxisOfFile& named_axis(const AxisFile& file, const std::string& name);
 
 /// A note where the grade line leaves more than a metre of the axis without elevation, a warning where more than half.
 Findings grade_coverage(const Alignment& axis);

@@ -63,9 +63,9 @@ VerticalAlignment grades(const PointAxis& axis, const std::vector<double>& eleva
 
 }  // namespace
 
-FileAxis axis_from_points(const std::string& name, const ListedPoints& points,
-                          const std::optional<double>& start_chainage_m, const std::string& file) {
-  FileAxis read;
+AxisOfFile axis_from_points(const std::string& name, const ListedPoints& points,
+                            const std::optional<double>& start_chainage_m, const std::string& file) {
+  AxisOfFile read;
   read.name = name;
   try {
     if (points.chainages_m.empty() && !start_chainage_m)

@@ -21,7 +21,7 @@ struct ListedPoints {
 /// Their axis (core/design/point_axis.h), with straight grades between elevations. `start_chainage_m` is that of the
 /// first point; it is needed when the points have no chainages, and refused when they do. What goes wrong becomes the
 /// axis's refusal, with the file.
-FileAxis axis_from_points(const std::string& name, const ListedPoints& points,
-                          const std::optional<double>& start_chainage_m, const std::string& file);
+AxisOfFile axis_from_points(const std::string& name, const ListedPoints& points,
+                            const std::optional<double>& start_chainage_m, const std::string& file);
 
 }  // namespace adit::io

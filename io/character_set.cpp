@@ -1,5 +1,7 @@
 #include "io/character_set.h"
 
+#include <cctype>
+
 namespace adit::io {
 namespace {
 
@@ -43,6 +45,11 @@ std::string utf8_from_latin1(std::string_view text) {
 
 std::string as_utf8(std::string text) {
   return is_utf8(text) ? text : utf8_from_latin1(text);
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 std::size_t character_at(std::string_view utf8, std::size_t n) {

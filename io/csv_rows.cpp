@@ -6,15 +6,10 @@
 #include <set>
 
 #include "core/foundation/error.h"
+#include "io/character_set.h"
 
 namespace adit::io {
 namespace {
-
-std::string lower_case(std::string_view word) {
-  std::string lower;
-  for (const char c : word) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
-}
 
 bool begins_like_a_number(std::string_view word) {
   const std::size_t sign = !word.empty() && (word[0] == '-' || word[0] == '+') ? 1 : 0;
@@ -59,7 +54,7 @@ bool CsvRows::next() {
   if (!first_) return true;
   first_ = false;
   if (!is_header()) return true;
-  for (const Field& field : fields_) header_.push_back(lower_case(field.text));
+  for (const Field& field : fields_) header_.push_back(lower_case(std::string(field.text)));
   header_line_ = lines_.line_number();
   if (!next_line()) return false;
   split();

@@ -117,8 +117,8 @@ class Chainer {
       if (entry.side == 1) std::reverse(heights.begin(), heights.end());
       const bool first = chain.heights.empty();
       chain.heights.insert(chain.heights.end(), heights.begin() + (first || heights.empty() ? 0 : 1), heights.end());
-      ++chain.pieces;
-      chain.pieces_reversed += entry.side;
+      chain.directed += lines_[entry.line].directed;
+      chain.reversed += entry.side * lines_[entry.line].directed;
       const End* follower = next({entry.line, 1 - entry.side});
       if (follower == nullptr || used_[follower->line]) break;
       entry = *follower;

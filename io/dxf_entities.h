@@ -15,8 +15,8 @@ struct DxfLine {
   std::vector<ProfileSegment> segments;
   bool closed = false;
   std::vector<double> heights;  ///< z of each segment's start, and of the last one's end
-  int pieces = 1;               ///< entities it is chained of
-  int pieces_reversed = 0;      ///< of them, those that were drawn the other way
+  int directed = 1;  ///< entities it is chained of that were drawn in a direction: all but arcs, which run one way only
+  int reversed = 0;  ///< of them, those that were drawn the other way
 };
 
 struct DxfDrawing {

@@ -67,12 +67,13 @@ class Collector : public DL_CreationAdapter {
   }
   void addPolyline(const DL_PolylineData& polyline) override {
     finish_polyline();
-    constexpr int closed = 1, mesh = 16, faces = 64;
+    constexpr int closed = 1, in_space = 8, mesh = 16, faces = 64;
     if ((polyline.flags & (mesh | faces)) != 0) return;
     polyline_open_ = true;
     polyline_closed_ = (polyline.flags & closed) != 0;
     polyline_mirrored_ = mirrored();
     polyline_layer_ = getAttributes().getLayer();
+    polyline_height_ = (polyline.flags & in_space) != 0 ? 0.0 : polyline.elevation;
   }
   void addVertex(const DL_VertexData& vertex) override {
     if (polyline_open_) vertices_.push_back(vertex);
@@ -109,9 +110,9 @@ class Collector : public DL_CreationAdapter {
     drawing_.unread += (drawing_.unread.empty() ? "" : ", ") + kind;
   }
 
-  void add(std::vector<ProfileSegment> segments, bool closed, std::vector<double> heights) {
+  void add(std::vector<ProfileSegment> segments, bool closed, std::vector<double> heights, int directed = 1) {
     if (!in_block_)
-      drawing_.lines.push_back({getAttributes().getLayer(), std::move(segments), closed, std::move(heights)});
+      drawing_.lines.push_back({getAttributes().getLayer(), std::move(segments), closed, std::move(heights), directed});
   }
 
   /// Two halves, so that a bulge says even a full circle.
@@ -125,7 +126,7 @@ class Collector : public DL_CreationAdapter {
     std::vector<ProfileSegment> halves{{place(0.0), place(0.5 * sweep_rad), bulge},
                                        {place(0.5 * sweep_rad), end, bulge}};
     if (mirrored()) mirror(halves);
-    add(std::move(halves), closed, {height, height, height});
+    add(std::move(halves), closed, {height, height, height}, 0);
   }
 
   void finish_polyline() {
@@ -138,8 +139,8 @@ class Collector : public DL_CreationAdapter {
       const DL_VertexData& a = vertices_[i];
       const DL_VertexData& b = vertices_[(i + 1) % n];
       segments.push_back({{a.x, a.y}, {b.x, b.y}, a.bulge});
-      if (heights.empty()) heights.push_back(a.z);
-      heights.push_back(b.z);
+      if (heights.empty()) heights.push_back(polyline_height_ != 0.0 ? polyline_height_ : a.z);
+      heights.push_back(polyline_height_ != 0.0 ? polyline_height_ : b.z);
     }
     if (polyline_mirrored_) mirror(segments);
     if (!in_block_ && !segments.empty())
@@ -155,6 +156,7 @@ class Collector : public DL_CreationAdapter {
   bool polyline_closed_ = false;
   bool polyline_mirrored_ = false;
   std::string polyline_layer_;
+  double polyline_height_ = 0.0;  ///< of all places of a flat one
   std::vector<DL_VertexData> vertices_;
 };
 

@@ -120,9 +120,9 @@ std::pair<double, StationEquations> stations_of(const std::vector<Referent>& ref
   return {start_m, StationEquations(std::move(equations))};
 }
 
-FileAxis read_alignment(const IfcText& text, const Nesting& nesting, const IfcUnits& units,
-                        const IfcInstance& alignment, std::size_t number) {
-  FileAxis read;
+AxisOfFile read_alignment(const IfcText& text, const Nesting& nesting, const IfcUnits& units,
+                          const IfcInstance& alignment, std::size_t number) {
+  AxisOfFile read;
   read.name = alignment.word_at(2).empty() ? "alignment " + std::to_string(number) : alignment.word_at(2);
   const std::string subject = "alignment " + read.name;
   try {

@@ -6,6 +6,7 @@
 #include "core/foundation/angle.h"
 #include "core/foundation/options.h"
 #include "io/text_place.h"
+#include "io/transition_names.h"
 
 namespace adit::io {
 namespace {
@@ -24,10 +25,7 @@ HorizontalKind plan_kind(const IfcInstance& segment, const std::string& name) {
   if (kind == "LINE") return HorizontalKind::line;
   if (kind == "CIRCULARARC") return HorizontalKind::arc;
   if (kind == "CLOTHOID") return HorizontalKind::clothoid;
-  if (kind == "BLOSSCURVE") return HorizontalKind::bloss;
-  if (kind == "COSINECURVE") return HorizontalKind::cosine;
-  if (kind == "SINECURVE") return HorizontalKind::sinusoid;
-  if (kind == "HELMERTCURVE" || kind == "BIQUADRATICPARABOLA") return HorizontalKind::biquadratic;
+  if (const auto transition = ifc_transition(kind)) return *transition;
   if (kind == "CUBIC") return HorizontalKind::cubic_parabola;
   segment.fail(name + " is of type " + quoted_word(kind) + ", which is not supported",
                "have it written as clothoids, Bloss, cosine or sine curves by whoever made the design");
@@ -136,10 +134,7 @@ GradeSegment grade_segment(const IfcInstance& segment, const std::string& name, 
 HorizontalKind cant_transition(const IfcInstance& segment) {
   const std::string kind = segment.word_at(8);
   if (kind == "CONSTANTCANT" || kind == "LINEARTRANSITION") return HorizontalKind::clothoid;
-  if (kind == "BLOSSCURVE") return HorizontalKind::bloss;
-  if (kind == "COSINECURVE") return HorizontalKind::cosine;
-  if (kind == "SINECURVE") return HorizontalKind::sinusoid;
-  if (kind == "HELMERTCURVE" || kind == "BIQUADRATICPARABOLA") return HorizontalKind::biquadratic;
+  if (const auto transition = ifc_transition(kind)) return *transition;
   segment.fail("a cant segment is of type " + quoted_word(kind) + ", which is not supported",
                "have it written as linear, Bloss, cosine or sine transitions by whoever made the design");
 }

@@ -19,7 +19,7 @@ std::string metres(double value) {
   return short_number(std::round(value * 1e4) / 1e4) + " m";
 }
 
-void check_total_length(double stated_m, const std::string& subject, FileAxis& read) {
+void check_total_length(double stated_m, const std::string& subject, AxisOfFile& read) {
   const double length = read.axis->horizontal().to_m() - read.axis->horizontal().from_m();
   if (stated_m == 0.0 || std::abs(stated_m - length) <= reported_length_m) return;
   read.findings.push_back(
@@ -32,7 +32,7 @@ void add(const Findings& more, Findings& findings) {
   findings.insert(findings.end(), more.begin(), more.end());
 }
 
-VerticalAlignment read_grade(const LandXmlNode& node, const std::string& subject, FileAxis& read) {
+VerticalAlignment read_grade(const LandXmlNode& node, const std::string& subject, AxisOfFile& read) {
   try {
     LandXmlGrade grade = read_landxml_grade(node, subject);
     add(grade.findings, read.findings);
@@ -44,7 +44,7 @@ VerticalAlignment read_grade(const LandXmlNode& node, const std::string& subject
 }
 
 /// What the cross-section does changes no axis: without it the axis stays usable, and it is said.
-Cant read_cant(const LandXmlNode& node, const HorizontalAlignment& plan, const std::string& subject, FileAxis& read) {
+Cant read_cant(const LandXmlNode& node, const HorizontalAlignment& plan, const std::string& subject, AxisOfFile& read) {
   try {
     LandXmlCant cant = read_landxml_cant(node, plan, subject);
     add(cant.findings, read.findings);
@@ -57,8 +57,8 @@ Cant read_cant(const LandXmlNode& node, const HorizontalAlignment& plan, const s
   }
 }
 
-FileAxis read_alignment(const LandXmlNode& node, std::size_t number) {
-  FileAxis read;
+AxisOfFile read_alignment(const LandXmlNode& node, std::size_t number) {
+  AxisOfFile read;
   read.name = node.text("name").empty() ? "alignment " + std::to_string(number) : node.text("name");
   const std::string subject = "alignment " + read.name;
   try {

@@ -1,36 +1,31 @@
 #include "io/landxml_cant.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "core/foundation/options.h"
+#include "io/character_set.h"
 #include "io/text_place.h"
+#include "io/transition_names.h"
 
 namespace adit::io {
 namespace {
 
-std::string in_small(std::string word) {
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return word;
-}
-
 HorizontalKind transition(const LandXmlNode& node) {
-  const std::string type = in_small(node.text("transitionType"));
-  if (type.empty() || type == "clothoid" || type == "cubic" || type == "cubicparabola") return HorizontalKind::clothoid;
-  if (type == "bloss" || type == "revbloss") return HorizontalKind::bloss;
-  if (type == "cosine" || type == "revcosine") return HorizontalKind::cosine;
-  if (type == "sinusoid" || type == "revsinusoid") return HorizontalKind::sinusoid;
-  if (type == "biquadratic" || type == "revbiquadratic") return HorizontalKind::biquadratic;
-  node.fail("the cant's transitionType " + quoted_word(type) + " is not supported",
-            "have it written as clothoid (linear), Bloss, cosine or sinusoid by whoever made the design");
+  const std::string type = node.text("transitionType");
+  if (type.empty()) return HorizontalKind::clothoid;
+  const auto kind = landxml_transition(type);
+  if (!kind)
+    node.fail("the cant's transitionType " + quoted_word(type) + " is not supported",
+              "have it written as clothoid (linear), Bloss, cosine or sinusoid by whoever made the design");
+  return *kind;
 }
 
 /// Raises of both rails for a cant (positive: left rail higher) about a pivot.
 CantStation raised(const LandXmlNode& cant, double chainage_m, double cant_m) {
-  const std::string pivot = in_small(cant.text("rotationPoint"));
+  const std::string pivot = lower_case(cant.text("rotationPoint"));
   const bool left_is_outside = cant_m >= 0.0;
   if (pivot.empty() || pivot == "center") return {chainage_m, 0.5 * cant_m, -0.5 * cant_m};
   const bool about_right = pivot == "rightrail" || (pivot == "insiderail" && left_is_outside) ||
@@ -46,7 +41,7 @@ CantStation read_station(const LandXmlNode& cant, const LandXmlNode& node) {
   const std::string curvature = node.text("curvature");
   if (curvature != "cw" && curvature != "ccw")
     node.fail("a cant station's curvature is " + quoted_word(curvature), "write cw or ccw");
-  const std::string adverse = in_small(node.text("adverse"));
+  const std::string adverse = lower_case(node.text("adverse"));
   if (!adverse.empty() && adverse != "true" && adverse != "false" && adverse != "1" && adverse != "0")
     node.fail("a cant station's adverse is " + quoted_word(adverse), "write true or false");
   const bool to_the_right = (curvature == "cw") != (adverse == "true" || adverse == "1");
@@ -97,7 +92,7 @@ void add_curve(const LandXmlNode& node, const HorizontalAlignment& plan, std::ve
   if (curvature == 0.0 && slope != 0.0)
     node.fail("a Superelevation stands where the axis is straight: its side is not known", "correct its stations");
   const auto adverse = node.child("AdverseSE");
-  const bool to_the_right = (curvature > 0.0) != (adverse && in_small(adverse->content()) == "adverse");
+  const bool to_the_right = (curvature > 0.0) != (adverse && lower_case(adverse->content()) == "adverse");
   const double half_m = 0.5 * (to_the_right ? slope : -slope);
   for (const auto& [chainage_m, share] : {std::pair{level_m, 0.0}, {full_m, 1.0}, {end_m, 1.0}, {flat_m, 0.0}})
     stations.push_back({chainage_m, share * half_m, -share * half_m});
@@ -129,8 +124,7 @@ LandXmlCant read_landxml_cant(const LandXmlNode& alignment, const HorizontalAlig
     return {Cant(std::move(stations), 1.0),
             {{Severity::note, subject, "its superelevation is taken about the axis, linear between its stations", ""}}};
   } catch (const Error& error) {
-    throw Error(subject + ": " + error.what_is_wrong(), error.where().empty() ? first.place() : error.where(),
-                error.mend());
+    throw Error(error.what_is_wrong(), error.where().empty() ? first.place() : error.where(), error.mend());
   }
 }
 

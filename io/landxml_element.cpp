@@ -1,12 +1,12 @@
 #include "io/landxml_element.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "core/design/transition_curve.h"
 #include "core/foundation/angle.h"
 #include "io/text_place.h"
+#include "io/transition_names.h"
 
 namespace adit::io {
 namespace {
@@ -66,18 +66,12 @@ void read_curve(const LandXmlNode& node, LandXmlElement& element) {
   arc.length_m = radius * sweep;
 }
 
-/// The transition of a spiType, in either spelling of the schema; the reversed ones follow the same laws.
 HorizontalKind transition(const LandXmlNode& node, const std::string& name) {
-  std::string type = node.text("spiType");
-  for (char& c : type) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (type == "clothoid") return HorizontalKind::clothoid;
-  if (type == "bloss" || type == "revbloss") return HorizontalKind::bloss;
-  if (type == "cosine" || type == "revcosine") return HorizontalKind::cosine;
-  if (type == "sinusoid" || type == "revsinusoid") return HorizontalKind::sinusoid;
-  if (type == "biquadratic" || type == "revbiquadratic") return HorizontalKind::biquadratic;
-  if (type == "cubic" || type == "cubicparabola") return HorizontalKind::cubic_parabola;
-  node.fail(name + " is of type \"" + node.text("spiType") + "\", which is not supported",
-            "have it written as clothoids, Bloss, cosine, sinusoid or cubic curves by whoever made the design");
+  const auto kind = landxml_transition(node.text("spiType"));
+  if (!kind)
+    node.fail(name + " is of type \"" + node.text("spiType") + "\", which is not supported",
+              "have it written as clothoids, Bloss, cosine, sinusoid or cubic curves by whoever made the design");
+  return *kind;
 }
 
 /// Direction at the start from Start and PI; from the chord where PI is absent or of no use.

@@ -80,19 +80,31 @@ ProfileSizes own_sizes(const JsonPlace& root) {
   return sizes;
 }
 
+/// What sizes must not fall below, each a size and a formula.
+void check_limits(const JsonPlace& place, const ProfileSizes& sizes, const std::string& file) {
+  for (const JsonPlace& pair : place.items()) {
+    const std::vector<JsonPlace> parts = pair.items();
+    if (parts.size() != 2 || sizes.find(parts[0].text()) == sizes.end())
+      pair.refuse("a size and a formula are needed", "write [\"height\", \"wall_height\"]");
+    const double least = value_of(parts[1], sizes), value = sizes.at(parts[0].text());
+    if (value < least)
+      throw Error("the size " + parts[0].text() + " is " + short_number(value), file,
+                  "it must be at least " + short_number(least));
+  }
+}
+
 Profile profile_of(const nlohmann::json& json, const std::string& file, const ProfileSizes& given) {
   const JsonPlace root(json, file);
-  root.only_keys({"name", "sizes", "where", "start", "pieces"});
+  root.only_keys({"name", "sizes", "at_least", "where", "start", "pieces"});
   ProfileSizes sizes = own_sizes(root);
   for (const auto& [name, value] : given) {
     if (sizes.find(name) == sizes.end())
       throw Error("the profile has no size " + quoted_word(name), file,
                   sizes.empty() ? "it takes none" : "it takes " + names_of(sizes));
-    if (sizes[name] > 0.0 && value <= 0.0)
-      throw Error("the size " + name + " is " + short_number(value), file, "write a positive number");
     sizes[name] = value;
   }
   const std::string stated = names_of(sizes);
+  if (root.has("at_least")) check_limits(root.at("at_least"), sizes, file);
   if (root.has("where"))
     for (const JsonPlace& pair : root.at("where").items()) {
       const std::vector<JsonPlace> parts = pair.items();

@@ -13,13 +13,13 @@ namespace adit::io {
 /// Sizes by name; those given replace the file's own.
 using ProfileSizes = std::map<std::string, double>;
 
-/// { "name", "sizes": { "width": 9.0 }, "where": [["r", "width/2"]], "start": [x, z], "pieces": [ ... ] }, a piece one
-/// of
+/// { "name", "sizes": { "width": 9.0 }, "at_least": [["width", 0.1]], "where": [["r", "width/2"]], "start": [x, z],
+/// "pieces": [ ... ] }, a piece one of
 ///   { "line": [x, z] }, { "arc": [x, z], "through": [x, z] }, { "arc": [x, z], "center": [x, z] } (the shorter way),
 ///   { "arc": [x, z], "bulge": b };
 /// the last one ends at the start. Every number may be a formula (io/expression.h) of sizes and what "where" adds.
-/// Throws Error with file and key for anything else, for sizes the file does not have or that should be positive, and
-/// as Profile does.
+/// Throws Error with file and key for anything else, for sizes the file does not have or that fall below their limits,
+/// and as Profile does.
 Profile read_profile_json(const std::filesystem::path& file, const ProfileSizes& sizes = {});
 
 /// A profile of the library by its name, "d_shape". Throws Error listing the names, or the sizes it takes.

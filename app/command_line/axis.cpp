@@ -104,8 +104,10 @@ std::vector<Number> row_at(const Alignment& axis, double chainage_m) {
   const VerticalAlignment& grade = axis.vertical();
   const bool graded = !grade.empty() && chainage_m >= grade.from_m() - 1e-3 && chainage_m <= grade.to_m() + 1e-3;
   const std::optional<VerticalPosition> vertical = graded ? std::optional(grade.at(chainage_m)) : std::nullopt;
+  constexpr double last_digit_deg = 0.5e-8;
   double bearing_deg = std::fmod(deg_from_rad(plan.azimuth_rad), 360.0);
   if (bearing_deg < 0.0) bearing_deg += 360.0;
+  if (bearing_deg >= 360.0 - last_digit_deg) bearing_deg = 0.0;  // not 360.00000000
   const auto of = [&](double VerticalPosition::*member) {
     return vertical ? std::optional(*vertical.*member) : std::nullopt;
   };
@@ -129,13 +131,28 @@ int list_coordinates(const Arguments& arguments, const Alignment& axis, bool as_
   return exit_good;
 }
 
-std::vector<Number> columns_of(const Alignment& axis, const std::optional<TunnelPoint>& at) {
-  const auto of = [&](double TunnelPoint::*member) { return at ? std::optional((*at).*member) : std::nullopt; };
-  const auto station = at ? std::optional(axis.stations().displayed_m(at->s_m)) : std::nullopt;
-  return {{"chainage", micrometres, of(&TunnelPoint::s_m)},
+/// Where a point stands; without a grade line its height is not known.
+struct Found {
+  double chainage_m, offset_m;
+  std::optional<double> height_m;
+};
+
+std::optional<Found> found_on(const Alignment& axis, const Eigen::Vector3d& point) {
+  if (axis.vertical().empty()) {
+    const auto foot = axis.horizontal().foot(point.head<2>());
+    return foot ? std::optional(Found{foot->chainage_m, foot->offset_m, std::nullopt}) : std::nullopt;
+  }
+  const auto at = axis.to_tunnel(point);
+  return at ? std::optional(Found{at->s_m, at->x_m, at->z_m}) : std::nullopt;
+}
+
+std::vector<Number> columns_of(const Alignment& axis, const std::optional<Found>& at) {
+  const auto of = [&](double Found::*member) { return at ? std::optional((*at).*member) : std::nullopt; };
+  const auto station = at ? std::optional(axis.stations().displayed_m(at->chainage_m)) : std::nullopt;
+  return {{"chainage", micrometres, of(&Found::chainage_m)},
           {"station", micrometres, station},
-          {"offset", micrometres, of(&TunnelPoint::x_m)},
-          {"height", micrometres, of(&TunnelPoint::z_m)}};
+          {"offset", micrometres, of(&Found::offset_m)},
+          {"height", micrometres, at ? at->height_m : std::nullopt}};
 }
 
 int list_points(const Arguments& arguments, const Alignment& axis, const CommonOptions& common) {
@@ -144,7 +161,7 @@ int list_points(const Arguments& arguments, const Alignment& axis, const CommonO
   std::size_t without = 0;
   std::string first;
   for (const ControlPoint& point : file.points) {
-    const auto at = axis.to_tunnel(point.position);
+    const auto at = found_on(axis, point.position);
     if (!at && without++ == 0) first = point.id;
     rows.add(point.id, columns_of(axis, at));
   }
@@ -159,7 +176,7 @@ int list_points(const Arguments& arguments, const Alignment& axis, const CommonO
 }
 
 /// What the reader says of the axis, on stderr.
-void print_findings(const io::AxisFile& file, const io::FileAxis& axis) {
+void print_findings(const io::AxisFile& file, const io::AxisOfFile& axis) {
   for (const Findings* findings : {&file.findings, &axis.findings})
     for (const Finding& finding : *findings)
       if (finding.severity != Severity::note)
@@ -186,11 +203,11 @@ Action declare_axis(CLI::App& command) {
     if (!std::isfinite(arguments->every_m))
       throw Error("no number of metres", "--every", "write one, for instance 1.0");
     const io::AxisFile file = io::read_axis(arguments->file, arguments->start_m);
-    const io::FileAxis& read = io::named_axis(file, arguments->name);
+    const io::AxisOfFile& read = io::named_axis(file, arguments->name);
     if (!common.quiet) print_findings(file, read);
-    if (!arguments->points.empty()) return list_points(*arguments, io::choose_alignment(file, arguments->name), common);
     if (read.grade_refusal) std::fprintf(stderr, "adit: %s\n", read.grade_refusal->what());
-    const int listed = list_coordinates(*arguments, *read.axis, common.json);
+    const int listed = arguments->points.empty() ? list_coordinates(*arguments, *read.axis, common.json)
+                                                 : list_points(*arguments, *read.axis, common);
     return read.grade_refusal ? exit_needs_a_person : listed;
   };
 }

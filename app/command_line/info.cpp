@@ -5,16 +5,19 @@
 #include <cstdlib>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/command_line/command.h"
 #include "app/command_line/summary.h"
 #include "app/run_job.h"
 #include "core/foundation/error.h"
 #include "io/control_csv.h"
+#include "io/file_ending.h"
 #include "io/json_place.h"
 #include "io/kof.h"
 #include "io/read_axis.h"
 #include "io/read_profile.h"
+#include "io/read_rings.h"
 #include "io/scan_formats.h"
 #include "io/targets_csv.h"
 #include "io/text_place.h"
@@ -178,11 +181,23 @@ std::string table_header(const fs::path& file) {
   return header;
 }
 
+json rings_info(const fs::path& file) {
+  const io::RingFile content = io::read_rings(file, 0.0);
+  std::set<std::string> rings;
+  for (const RingPoint& point : content.points) rings.insert(point.ring);
+  return {{"file", file.string()},
+          {"format", "rings"},
+          {"rings", rings.size()},
+          {"points", content.points.size()},
+          {"findings", findings_info(content.findings)}};
+}
+
 json table_info(const fs::path& file, Progress& progress) {
   const std::string header = table_header(file);
   const auto starts = [&](const char* word) { return header.find(word) != std::string::npos; };
   if (starts("scan") && starts("id"))
     return {{"file", file.string()}, {"format", "targets"}, {"targets", io::read_targets_csv(file).size()}};
+  if ((starts("ring") || starts("profile")) && starts("point") && starts("east")) return rings_info(file);
   if (starts("id") && starts("east"))
     return {{"file", file.string()}, {"format", "control"}, {"points", io::read_control_csv(file).size()}};
   if (starts("offset") && starts("height")) return profile_info(file);
@@ -192,9 +207,7 @@ json table_info(const fs::path& file, Progress& progress) {
 
 json info(const fs::path& file, Progress& progress) {
   if (!fs::exists(file)) throw Error("there is no such file", file.string(), "check the path");
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = io::lower_ending(file);
   if (ending == ".json" && !fs::is_directory(file) && io::parse_json_file(file).contains("pieces"))
     return profile_info(file);
   if (fs::is_directory(file) || ending == ".json") return job_info(file, progress);

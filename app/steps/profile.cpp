@@ -19,7 +19,7 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "profile 5|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
+  std::string text = "profile 6|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
   text += state.profiles_text();
   for (const DesignLine& line : state.job.lines) text += "|" + line.name + short_number(line.offset_m);
   const JobChainage stretch = state.stretch();

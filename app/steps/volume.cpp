@@ -16,7 +16,7 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "volume 5|" + state.keys.at("profile");
+  std::string text = "volume 6|" + state.keys.at("profile");
   for (const JobRound& round : state.job.rounds)
     text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +
             "," + short_number(round.drilled_m);

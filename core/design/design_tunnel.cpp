@@ -26,9 +26,24 @@ void check_profiles(const std::vector<ProfileFrom>& profiles) {
   }
 }
 
+/// Cuts a stretch over which a profile moves by `change_m` into steps of 0.1 m, or of a millimetre of change:
+/// visit(where a step begins, share of the stretch it stands for). Each step stands for its middle, the first and the
+/// last for the ends, so that a section at an end or at a whole step shows the design of its own place.
+template <typename Visit>
+void for_each_step(double from_m, double to_m, double change_m, const Visit& visit) {
+  constexpr double shortest_step_m = 0.1, least_change_m = 0.001, none_m = 1e-9;
+  if (change_m < none_m) return visit(from_m, 0.0);
+  const double wanted = std::min((to_m - from_m) / shortest_step_m, change_m / least_change_m);
+  const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(wanted)));
+  for (std::size_t k = 0; k <= n; ++k) {
+    const double share = static_cast<double>(k) / static_cast<double>(n);
+    const double begin = k == 0 ? 0.0 : share - 0.5 / static_cast<double>(n);
+    visit(from_m + begin * (to_m - from_m), share);
+  }
+}
+
 /// Every stretch that changes as steps so small that nobody sees them.
 std::vector<ProfileFrom> stepped(const std::vector<ProfileFrom>& profiles) {
-  constexpr double shortest_step_m = 0.1, change_m = 0.001;
   std::vector<ProfileFrom> steps;
   for (std::size_t i = 0; i < profiles.size(); ++i) {
     if (!profiles[i].interpolated) {
@@ -36,30 +51,24 @@ std::vector<ProfileFrom> stepped(const std::vector<ProfileFrom>& profiles) {
       continue;
     }
     const ProfileFrom &from = profiles[i], &to = profiles.at(i + 1);
-    const double length_m = to.from_m - from.from_m;
-    const double wanted = std::min(length_m / shortest_step_m, blend_distance_m(from.profile, to.profile) / change_m);
-    const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(wanted)));
-    for (std::size_t k = 0; k < n; ++k) {
-      const double begin = static_cast<double>(k) / static_cast<double>(n);
-      const double middle = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
-      steps.push_back({from.from_m + begin * length_m, blended_profile(from.profile, to.profile, middle)});
-    }
+    for_each_step(from.from_m, to.from_m, blend_distance_m(from.profile, to.profile),
+                  [&](double begin_m, double share) {
+                    steps.push_back({begin_m, blended_profile(from.profile, to.profile, share)});
+                  });
   }
   return steps;
 }
 
-/// Stretches of one profile between `from` and `to`, turned: one where the cant is even, small steps where it changes.
+/// A profile between two chainages, turned: one step where the cant is even.
 void add_turned(const Profile& profile, const Cant& cant, double from_m, double to_m, std::vector<ProfileFrom>& steps) {
-  const CantAt begin = cant.at(from_m), end = cant.at(to_m - 1e-9);
+  const double inside_m = to_m - 1e-9;  // at the end itself another transition may begin
+  const CantAt begin = cant.at(from_m), end = cant.at(inside_m);
   const double reach_m = profile.box().max().cwiseAbs().cwiseMax(profile.box().min().cwiseAbs()).norm();
   const double change_m = reach_m * std::abs(end.turn_rad - begin.turn_rad) + std::abs(end.rise_m - begin.rise_m);
-  const double wanted = std::min((to_m - from_m) / 0.1, change_m / 0.001);
-  const auto n = static_cast<std::size_t>(std::max(1.0, std::ceil(wanted)));
-  for (std::size_t k = 0; k < n; ++k) {
-    const double length_m = (to_m - from_m) / static_cast<double>(n);
-    const CantAt at = cant.at(from_m + (static_cast<double>(k) + 0.5) * length_m);
-    steps.push_back({from_m + static_cast<double>(k) * length_m, turned_profile(profile, at.turn_rad, at.rise_m)});
-  }
+  for_each_step(from_m, to_m, change_m, [&](double begin_m, double share) {
+    const CantAt at = cant.at(from_m + share * (inside_m - from_m));
+    steps.push_back({begin_m, turned_profile(profile, at.turn_rad, at.rise_m)});
+  });
 }
 
 std::vector<ProfileFrom> turned(const std::vector<ProfileFrom>& profiles, const Alignment& axis) {

@@ -37,16 +37,10 @@ struct Mapper {
   const DesignTunnel& design;
   const ProfilingOptions& options;
   const DeviationMap& map;
-  std::vector<ProfileStretch> stretches;  ///< one for each of the design's profiles
+  std::vector<ProfileStretch> stretches;    ///< one for each of the design's profiles
+  std::vector<std::size_t> profile_of_row;  ///< that of the row's middle holds for all its points
   /// Where the scanners stand, offset and height; nothing where it is not known or not in the tunnel.
   std::vector<std::optional<Eigen::Vector2d>> scanners;
-
-  const ProfileStretch& stretch_at(double chainage_m) const {
-    const Profile* profile = &design.profile_at(chainage_m);
-    for (std::size_t i = 0; i < design.profiles().size(); ++i)
-      if (profile == &design.profiles()[i].profile) return stretches[i];
-    return stretches.front();
-  }
 
   /// Enough of a tile: a surface through its box touches about as many cells as the box's two longer sides say, and the
   /// scans beside it share what a cell needs.
@@ -66,14 +60,15 @@ struct Mapper {
       const double range = static_cast<double>(point.range_m);
       if (scan.scanner_at_origin && (range < options.least_range_m || range > options.most_range_m)) return;
       const TunnelPoint& at = point.at;
-      const ProfileFoot foot = design.profile_at(at.s_m).nearest({at.x_m, at.z_m});
+      const auto row = std::min(static_cast<std::size_t>((at.s_m - map.from_m) / map.step_s_m), last_row - 1);
+      const std::size_t profile = profile_of_row[row];
+      const ProfileFoot foot = design.profiles()[profile].profile.nearest({at.x_m, at.z_m});
       if (foot.deviation_m < -options.reach_in_m) {
         ++result.inside;
       } else if (foot.deviation_m > options.reach_out_m) {
         ++result.outside;
       } else {
-        const auto row = std::min(static_cast<std::size_t>((at.s_m - map.from_m) / map.step_s_m), last_row - 1);
-        const auto column = static_cast<std::size_t>(stretch_at(at.s_m).q_of(foot) / map.step_q_m);
+        const auto column = static_cast<std::size_t>(stretches[profile].q_of(foot) / map.step_q_m);
         const std::size_t cell = (row - first_row) * map.columns + std::min(column, map.columns - 1);
         const double place = (at.s_m - map.from_m) / map.step_s_m - static_cast<double>(row);
         result.entries.push_back({static_cast<std::uint32_t>(cell), static_cast<float>(foot.deviation_m),
@@ -91,6 +86,15 @@ struct Mapper {
     return static_cast<float>(std::min(1.0, square_m / range_m));
   }
 };
+
+std::vector<std::size_t> profiles_of_rows(const DeviationMap& map, const DesignTunnel& design) {
+  std::vector<std::size_t> profiles;
+  for (std::size_t r = 0, i = 0; r < map.rows; ++r) {
+    while (i + 1 < design.profiles().size() && design.profiles()[i + 1].from_m <= map.row_chainage(r)) ++i;
+    profiles.push_back(i);
+  }
+  return profiles;
+}
 
 std::vector<std::optional<Eigen::Vector2d>> scanners_in_tunnel(const std::vector<PlacedTiles>& scans,
                                                                const Alignment& axis) {
@@ -228,7 +232,7 @@ void fill_map_gaps(DeviationMap& map, const Mapper& mapper, double gap_m) {
       [&](std::size_t r) {
         const auto begin = map.cells.begin() + static_cast<std::ptrdiff_t>(r * map.columns);
         const std::vector<MapCell> row(begin, begin + static_cast<std::ptrdiff_t>(map.columns));
-        const Outline outline = outline_of(row, mapper.stretch_at(map.row_chainage(r)), map.step_q_m, gap_m);
+        const Outline outline = outline_of(row, mapper.stretches[mapper.profile_of_row[r]], map.step_q_m, gap_m);
         std::copy(outline.cells.begin(), outline.cells.end(), begin);
       },
       4);
@@ -322,7 +326,13 @@ MapResult map_deviations(const std::vector<PlacedTiles>& scans, const ChainageIn
   for (const auto& stepped : design.profiles()) stretches.emplace_back(stepped.profile);
   MapResult result;
   result.map = empty_map(stretches, from_m, to_m, options);
-  const Mapper mapper{scans, design, options, result.map, stretches, scanners_in_tunnel(scans, design.alignment())};
+  const Mapper mapper{scans,
+                      design,
+                      options,
+                      result.map,
+                      stretches,
+                      profiles_of_rows(result.map, design),
+                      scanners_in_tunnel(scans, design.alignment())};
   const std::vector<std::size_t> begins = slabs(mapper, index, memory_bytes);
   for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
     progress.step(begins[i], result.map.rows);

@@ -3,11 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
+#include "core/foundation/angle.h"
 #include "core/foundation/error.h"
-#include "core/foundation/random.h"
-#include "core/geometry/statistics.h"
 
 namespace adit {
 namespace {
@@ -15,6 +13,7 @@ namespace {
 constexpr int most_steps = 60;
 constexpr double last_step_m = 1e-10;
 constexpr double largest_radius_m = 1000.0;
+constexpr double least_covered_deg = 210.0;  // of less, an ellipse is anything
 
 using Flat = std::vector<Eigen::Vector2d>;
 
@@ -112,6 +111,16 @@ double distance_to_ellipse(const Eigen::Vector2d& point, double a, double b) {
   return std::copysign((Eigen::Vector2d(x, y) - foot).norm(), inside);
 }
 
+double covered_deg(const Flat& points, const Eigen::Vector2d& center) {
+  std::vector<double> angles;
+  for (const Eigen::Vector2d& point : points)
+    angles.push_back(deg_from_rad(std::atan2(point.y() - center.y(), point.x() - center.x())));
+  std::sort(angles.begin(), angles.end());
+  double widest = angles.front() + 360.0 - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) widest = std::max(widest, angles[i] - angles[i - 1]);
+  return 360.0 - widest;
+}
+
 struct Ellipse {
   Eigen::Vector2d center;
   double a, b, turn_rad;
@@ -180,7 +189,8 @@ RingFit fit_ring(const std::vector<RingPlace>& places, const Eigen::Vector3d& al
   fit.normal = plane.normal;
   const Eigen::Vector2d center = fit_circle(flat, offsets_m, fit);
   fit.center = plane.place(center);
-  if (places.size() < 6) return fit;
+  fit.covered_deg = covered_deg(flat, center);
+  if (places.size() < 6 || fit.covered_deg < least_covered_deg) return fit;
   const Ellipse ellipse = fit_ellipse(flat, offsets_m, center, fit);
   const double most = 0.5 * fit.radius_m;
   if (!std::isfinite(ellipse.a) || std::abs(ellipse.a - fit.radius_m) > most ||
@@ -191,77 +201,6 @@ RingFit fit_ring(const std::vector<RingPlace>& places, const Eigen::Vector3d& al
   fit.major_direction = std::cos(ellipse.turn_rad) * plane.u + std::sin(ellipse.turn_rad) * plane.v;
   fit.ovality_m = 2.0 * (ellipse.a - ellipse.b);
   return fit;
-}
-
-namespace {
-
-struct FlatCircle {
-  Eigen::Vector2d center;
-  double radius_m;
-};
-
-std::optional<FlatCircle> circle_through(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
-  const Eigen::Vector2d ab = b - a, ac = c - a;
-  const double cross = 2.0 * (ab.x() * ac.y() - ab.y() * ac.x());
-  if (std::abs(cross) < 1e-9) return std::nullopt;
-  const Eigen::Vector2d to_center((ac.y() * ab.squaredNorm() - ab.y() * ac.squaredNorm()) / cross,
-                                  (ab.x() * ac.squaredNorm() - ac.x() * ab.squaredNorm()) / cross);
-  return FlatCircle{a + to_center, to_center.norm()};
-}
-
-std::vector<double> distances_from(const FlatCircle& circle, const Flat& points) {
-  std::vector<double> distances;
-  for (const Eigen::Vector2d& point : points)
-    distances.push_back(std::abs((point - circle.center).norm() - circle.radius_m));
-  return distances;
-}
-
-/// Calls visit(i, j, k): all triples of few points, some of many.
-template <typename Visit>
-void for_triples(std::size_t n, const Visit& visit) {
-  constexpr std::size_t most_points = 20, draws = 1000;
-  if (n <= most_points) {
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = i + 1; j < n; ++j)
-        for (std::size_t k = j + 1; k < n; ++k) visit(i, j, k);
-    return;
-  }
-  const Random random(1, n);
-  const auto drawn = [&](std::uint64_t index) {
-    return std::min(n - 1, static_cast<std::size_t>(random.uniform(index) * static_cast<double>(n)));
-  };
-  for (std::uint64_t t = 0; t < draws; ++t) visit(drawn(3 * t), drawn(3 * t + 1), drawn(3 * t + 2));
-}
-
-}  // namespace
-
-std::vector<std::size_t> ring_outliers(const std::vector<RingPlace>& places, const Eigen::Vector3d& along) {
-  constexpr double least_m = 0.03, share_of_radius = 0.02, sigmas = 3.0;  // linings are no circles to that
-  if (places.size() < 6) return {};
-  const RingFit rough = fit_ring(places, along);
-  const Plane plane = plane_square_to(rough.center, along.normalized());
-  Flat flat;
-  for (const RingPlace& place : places) {
-    const Eigen::Vector3d from = place.position - plane.origin;
-    const Eigen::Vector2d point(from.dot(plane.u), from.dot(plane.v));
-    flat.push_back(point + place.target_offset_m * point.normalized());  // to the surface, as good as it is known
-  }
-  double least_median = std::numeric_limits<double>::infinity();
-  FlatCircle best{};
-  for_triples(flat.size(), [&](std::size_t i, std::size_t j, std::size_t k) {
-    const auto circle = circle_through(flat[i], flat[j], flat[k]);
-    if (!circle) return;
-    const double middle = median(distances_from(*circle, flat));
-    if (middle < least_median) best = *circle;
-    least_median = std::min(least_median, middle);
-  });
-  if (!std::isfinite(least_median)) return {};
-  const double sigma = 1.4826 * (1.0 + 5.0 / static_cast<double>(flat.size() - 3)) * least_median;
-  std::vector<std::size_t> off;
-  const std::vector<double> distances = distances_from(best, flat);
-  for (std::size_t i = 0; i < distances.size(); ++i)
-    if (distances[i] > std::max({least_m, share_of_radius * best.radius_m, sigmas * sigma})) off.push_back(i);
-  return off.size() + 3 > places.size() ? std::vector<std::size_t>{} : off;
 }
 
 }  // namespace adit

@@ -26,7 +26,9 @@ struct RingFit {
   double sigma_center_m = std::numeric_limits<double>::quiet_NaN();
   double sigma_radius_m = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> residuals_m;
-  /// The best ellipse; not a number for fewer than six points. Ovality: largest less smallest diameter.
+  double covered_deg = 0.0;  ///< 360 less the greatest angle between two neighbouring points, seen from the centre
+  /// The best ellipse; not a number for fewer than six points or where they cover less than 210 degrees. Ovality:
+  /// largest less smallest diameter.
   double semi_major_m = std::numeric_limits<double>::quiet_NaN();
   double semi_minor_m = std::numeric_limits<double>::quiet_NaN();
   Eigen::Vector3d major_direction = Eigen::Vector3d::Zero();  ///< unit
@@ -38,10 +40,5 @@ struct RingFit {
 /// from Kasa's start. Ellipse: Gauss-Newton on the distances to it. Throws Error when there are fewer than three
 /// points, they lie on one line, or the circle is larger than a kilometre.
 RingFit fit_ring(const std::vector<RingPlace>& places, const Eigen::Vector3d& along);
-
-/// Points that lie off the circle of most: of the circles through three points the one whose median residual is least
-/// (Rousseeuw 1984; all triples of up to 20 points, 1000 drawn ones of more, always the same), off by more than 30 mm,
-/// 2 % of the radius and three of its robust sigmas. None of fewer than six.
-std::vector<std::size_t> ring_outliers(const std::vector<RingPlace>& places, const Eigen::Vector3d& along);
 
 }  // namespace adit

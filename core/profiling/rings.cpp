@@ -8,6 +8,7 @@
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "core/foundation/options.h"
+#include "core/profiling/ring_outliers.h"
 
 namespace adit {
 namespace {
@@ -58,7 +59,7 @@ std::string names_of(const Ring& ring, const std::vector<std::size_t>& which) {
 /// Points that do not fit to the circle of most: named, not left out.
 void look_for_blunders(const Ring& ring, const RingFit& fit, const Directions& tunnel, const std::string& subject,
                        Findings& findings) {
-  const std::vector<std::size_t> off = ring_outliers(places_of(ring), tunnel.along);
+  const std::vector<std::size_t> off = ring_outliers(places_of(ring), fit, tunnel.along);
   if (off.empty()) return;
   std::vector<RingPlace> rest;
   for (std::size_t i = 0; i < ring.size(); ++i)
@@ -84,8 +85,12 @@ void judge(const Ring& ring, const RingFit& fit, const RingResult& result, const
     findings.push_back({decision ? Severity::decision : Severity::warning, subject, words, mend});
   };
   constexpr double largest_rms_m = 0.05, share_of_radius = 0.02, thickest_m = 0.25, smallest_radius_m = 0.2;
-  constexpr double weak_center_m = 0.01, unknown_center_m = 0.02, turned_deg = 30.0, design_share = 0.1;
+  constexpr double weak_center_m = 0.01, unknown_center_m = 0.02, turned_deg = 30.0, half_deg = 180.0,
+                   design_share = 0.1;
   if (ring.size() == 3) say(false, "three points give a circle that nothing checks", "measure more");
+  if (ring.size() > 3 && fit.covered_deg < half_deg)
+    say(false, "its points cover " + short_number(std::round(fit.covered_deg)) + " degrees of it only",
+        "measure points all around the ring");
   if (result.tilt_deg > largest_tilt_deg)
     say(result.tilt_deg > turned_deg,
         "its plane is tilted by " + short_number(std::round(result.tilt_deg * 10.0) / 10.0) +

@@ -42,7 +42,7 @@ struct RingResult {
   double horizontal_deviation_m = 0.0;
   double vertical_deviation_m = 0.0;
   double radius_m = 0.0;
-  double ovality_m = 0.0;        ///< not a number for fewer than six points
+  double ovality_m = 0.0;        ///< not a number for fewer than six points or less than 210 degrees
   double major_clock_deg = 0.0;  ///< where the largest diameter points, 0 to 180; not a number likewise
   double rms_m = 0.0;
   double sigma_center_m = 0.0;  ///< not a number for three points

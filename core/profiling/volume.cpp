@@ -12,6 +12,13 @@
 namespace adit {
 namespace {
 
+void add_weighted(VolumeAmounts& sum, double weight, const VolumeAmounts& amounts) {
+  sum.design_m3 += weight * amounts.design_m3;
+  sum.excavated_m3 += weight * amounts.excavated_m3;
+  sum.overbreak_m3 += weight * amounts.overbreak_m3;
+  sum.underbreak_m3 += weight * amounts.underbreak_m3;
+}
+
 struct SliceSums {
   VolumeAmounts amounts;
   double measured_m2 = 0.0;
@@ -44,6 +51,15 @@ std::vector<LineOfProfile> lines_of(const DesignTunnel& design, const DesignLine
   return lines;
 }
 
+/// Where profiles change within a stretch, with both its ends.
+std::vector<double> parts_of(const DesignTunnel& design, double from_m, double to_m) {
+  std::vector<double> bounds{from_m};
+  for (const ProfileFrom& profile : design.profiles())
+    if (profile.from_m > from_m && profile.from_m < to_m) bounds.push_back(profile.from_m);
+  bounds.push_back(to_m);
+  return bounds;
+}
+
 const LineOfProfile& line_at(const std::vector<LineOfProfile>& lines, const DesignTunnel& design, double chainage_m) {
   const Profile* profile = &design.profile_at(chainage_m);
   return *std::find_if(lines.begin(), lines.end(), [&](const LineOfProfile& l) { return l.profile == profile; });
@@ -63,10 +79,17 @@ SliceSums slice_sums(const DeviationMap& map, std::size_t r, const DesignTunnel&
   const std::vector<MapCell> row(map.cells.begin() + static_cast<std::ptrdiff_t>(r * map.columns),
                                  map.cells.begin() + static_cast<std::ptrdiff_t>((r + 1) * map.columns));
   const Outline outline = outline_of(row, line.stretch, map.step_q_m, options.gap_m);
-  const SliceAmounts amounts = slice_amounts(outline.points, line.line);
   const double k = design.alignment().horizontal().at(chainage).curvature_per_m;
-  const auto volume = [&](const AreaMoment& a) { return ds * (a.area_m2 - k * a.moment_m3); };
-  sums.amounts = {volume(line.line.design), volume(amounts.area), volume(amounts.over), volume(amounts.under)};
+  // One rock for the whole slice, and each of the profiles that hold in it for its own part.
+  const std::vector<double> bounds = parts_of(design, begin, end);
+  for (std::size_t part = 0; part + 1 < bounds.size(); ++part) {
+    const double length_m = bounds[part + 1] - bounds[part];
+    const LinePolygon& there = line_at(lines, design, 0.5 * (bounds[part] + bounds[part + 1])).line;
+    const SliceAmounts amounts = slice_amounts(outline.points, there);
+    const auto volume = [&](const AreaMoment& a) { return length_m * (a.area_m2 - k * a.moment_m3); };
+    add_weighted(sums.amounts, 1.0,
+                 {volume(there.design), volume(amounts.area), volume(amounts.over), volume(amounts.under)});
+  }
   sums.measured_m2 = ds * outline.measured_m;
   sums.interpolated_m2 = ds * outline.interpolated_m;
   sums.unseen_m2 = ds * outline.unseen_m;
@@ -77,13 +100,6 @@ VolumeAmounts amounts_of(const Section& section, const std::string& line) {
   for (const SectionAreas& areas : section.lines)
     if (areas.line == line) return {areas.design_area_m2, areas.area_m2, areas.overbreak_m2, areas.underbreak_m2};
   return {};
-}
-
-void add_weighted(VolumeAmounts& sum, double weight, const VolumeAmounts& amounts) {
-  sum.design_m3 += weight * amounts.design_m3;
-  sum.excavated_m3 += weight * amounts.excavated_m3;
-  sum.overbreak_m3 += weight * amounts.overbreak_m3;
-  sum.underbreak_m3 += weight * amounts.underbreak_m3;
 }
 
 /// Both methods on over and under separately; sections at the ends, every interval, and half-way for the prismoid.

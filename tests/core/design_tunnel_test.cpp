@@ -67,6 +67,16 @@ TEST(DesignTunnelBlend, LikeProfilesChangeEvenly) {
   EXPECT_THROW(DesignTunnel(straight(), {{0, box(4, 3), true}}, {{"line", 0}}), Error);
 }
 
+TEST(DesignTunnelBlend, EndsAndWholeStepsAreExact) {
+  const DesignTunnel tunnel(straight(), {{20, box(4, 3), true}, {30, box(6, 4)}}, {{"line", 0}});
+  EXPECT_NEAR(tunnel.profile_at(20).area_m2(), 12.0, 1e-9);
+  EXPECT_NEAR(tunnel.profile_at(25).area_m2(), 5.0 * 3.5, 1e-9);
+  EXPECT_NEAR(tunnel.profile_at(29.9999).area_m2(), 24.0, 1e-9);
+  double sum = 0.0;
+  for (double s = 20.005; s < 30.0; s += 0.01) sum += 0.01 * tunnel.profile_at(s).area_m2();
+  EXPECT_NEAR(sum, 10.0 * (12.0 + 10.0 / 2.0 + 2.0 / 3.0), 0.01);  // of (4 + 2 u)(3 + u), u from 0 to 1
+}
+
 TEST(DesignTunnelBlend, UnlikeProfilesMeetBothEnds) {
   const Profile circle("circle", {{{-3, 0}, {3, 0}, -1}, {{3, 0}, {-3, 0}, -1}});
   const Profile rectangle = box(6, 6);

@@ -162,6 +162,9 @@ TEST(Rings, WhatIsDoubtfulIsNamed) {
   for (std::size_t i = 0; i < part.size(); ++i) part[i].place.position.z() += 0.001 * random.normal(i);
   const RingResult few = fitted(part, axis).rings.at(0);
   EXPECT_GT(few.sigma_radius_m, 0.002);
+  EXPECT_TRUE(std::isnan(few.ovality_m));  // any ellipse fits an arc
+  const RingsResult short_arc = fitted(ring_at(axis, 1030.0, {0, 0}, 13, round, "7", -30.0, 30.0), axis);
+  EXPECT_NE(said(short_arc).find("degrees of it only"), std::string::npos);
 }
 
 }  // namespace

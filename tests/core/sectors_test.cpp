@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "core/profiling/profiling.h"
 #include "tests/core/sample_tunnel.h"
@@ -98,6 +99,23 @@ TEST(RoundReview, ALookOutIsFoundAndARoughContourDoesNotPromiseTooMuch) {
   DeviationMap unseen = rough;
   for (MapCell& cell : unseen.cells) cell = MapCell{};
   EXPECT_TRUE(std::isnan(review_round(unseen, design, {"line", 0.0}, 20, 28, 1.0).lookout_per_m));
+}
+
+TEST(VolumeOfProfiles, AChangeInsideASliceCountsEachProfileForItsPart) {
+  const Alignment axis = tests::sample_axis();
+  const DesignTunnel design(axis, {{0.0, tests::circle_profile(4.0)}, {23.47, tests::circle_profile(5.0)}},
+                            {{"line", 0.0}});
+  const DeviationMap map = map_of(design, [](double, const ProfilePoint&) { return 0.0; });
+  Progress progress;
+  for (const double slice_m : {0.1, 1.0}) {
+    DeviationMap sliced = map;
+    sliced.step_s_m = slice_m;
+    sliced.rows = static_cast<std::size_t>(std::lround(8.0 / slice_m));
+    sliced.cells.resize(sliced.rows * sliced.columns);
+    const Volume volume = compute_volume(sliced, design, {"line", 0.0}, 20, 28, 1.0, {}, {}, progress);
+    EXPECT_NEAR(volume.slices.design_m3, pi * (16.0 * 3.47 + 25.0 * 4.53), 0.01) << slice_m;
+    EXPECT_NEAR(volume.closure_m3, 0.0, 1e-3);
+  }
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ TEST_F(AxisFiles, ADrawnPolylineWithABulge) {
   const std::string line = "0\nLWPOLYLINE\n8\nCL\n90\n3\n70\n0\n10\n0\n20\n0\n10\n0\n20\n100\n42\n" +
                            std::to_string(bulge) + "\n10\n-50\n20\n150\n";
   const AxisFile file = read("axis.dxf", dxf(line), 1000.0);
-  const FileAxis& read_axis = named_axis(file, "CL");
+  const AxisOfFile& read_axis = named_axis(file, "CL");
   const HorizontalAlignment& plan = read_axis.axis->horizontal();
   EXPECT_NEAR(plan.to_m(), 1100 + 25 * pi, 1e-3);
   EXPECT_NEAR(plan.at(plan.to_m()).azimuth_rad, -pi / 2, 1e-5);
@@ -152,6 +152,11 @@ TEST_F(AxisFiles, APolylineInSpaceCarriesItsGrade) {
   EXPECT_NEAR(axis.vertical().at(75).grade, -0.02, 1e-9);
 }
 
+TEST_F(AxisFiles, AFlatPolylineLiesAtItsElevation) {
+  const std::string light = "0\nLWPOLYLINE\n8\nCL\n90\n2\n70\n0\n38\n12.5\n10\n0\n20\n0\n10\n0\n20\n50\n";
+  EXPECT_NEAR(choose_alignment(read("axis.dxf", dxf(light), 0.0), "").vertical().at(25).elevation_m, 12.5, 1e-9);
+}
+
 TEST_F(AxisFiles, LoosePiecesRunAsTheyWereDrawnOrAreRefused) {
   const auto piece = [](double y0, double y1) {
     return "0\nLINE\n8\nCL\n10\n0\n20\n" + std::to_string(y0) + "\n30\n0\n11\n0\n21\n" + std::to_string(y1) +
@@ -160,6 +165,12 @@ TEST_F(AxisFiles, LoosePiecesRunAsTheyWereDrawnOrAreRefused) {
   const AxisFile down = read("axis.dxf", dxf(piece(20, 10) + piece(10, 0)), 0.0);
   EXPECT_NEAR(named_axis(down, "").axis->horizontal().at(5).position.y(), 15.0, 1e-9);
   expect_words(refusal("axis.dxf", dxf(piece(20, 10) + piece(0, 10)), 0.0), {"different directions"});
+  const std::string arc = "0\nARC\n8\nCL\n10\n0\n20\n0\n30\n0\n40\n100\n50\n0\n51\n90\n";  // from (100, 0) to (0, 100)
+  const std::string into_it = "0\nLINE\n8\nCL\n10\n-50\n20\n100\n30\n0\n11\n0\n21\n100\n31\n0\n";
+  const HorizontalAlignment right_hand = named_axis(read("axis.dxf", dxf(into_it + arc), 0.0), "").axis->horizontal();
+  EXPECT_NEAR(right_hand.at(10).position.x(), -40.0, 1e-6);
+  EXPECT_NEAR(right_hand.at(100).curvature_per_m, 0.01, 1e-9);
+  expect_words(refusal("axis.dxf", dxf(arc), 0.0), {"arcs alone"});
   const std::string ring = "0\nCIRCLE\n8\nCL\n10\n0\n20\n0\n30\n0\n40\n5\n";
   expect_words(refusal("axis.dxf", dxf(ring), 0.0), {"no open line"});
 }

@@ -41,7 +41,7 @@ TEST(RailwayAxisData, ElevenAlignmentsWholeAndJoined) {
   std::map<HorizontalKind, int> kinds;
   std::size_t circles = 0;
   double length = 0.0;
-  for (const FileAxis& alignment : file.axes) {
+  for (const AxisOfFile& alignment : file.axes) {
     ASSERT_TRUE(alignment.axis.has_value()) << alignment.name;
     const Alignment axis = choose_alignment(file, alignment.name);
     for (const auto& e : axis.horizontal().elements()) ++kinds[e.kind];
@@ -125,7 +125,7 @@ TEST(OtherAxesData, AreReadOrRefusedWithTheirReason) {
   for (const auto& [folder, expected] : table) {
     SCOPED_TRACE(expected.file);
     const AxisFile file = read(folder + expected.file);
-    const FileAxis* found = nullptr;
+    const AxisOfFile* found = nullptr;
     for (const auto& a : file.axes) found = a.name == expected.alignment ? &a : found;
     ASSERT_NE(found, nullptr);
     ASSERT_TRUE(found->axis.has_value()) << found->refusal->what();

@@ -58,7 +58,9 @@ TEST(ProfileLibrary, EveryFileHasTheAreaOfItsFormula) {
 TEST(ProfileLibrary, SaysWhatItHas) {
   expect_words(error_of([] { library_profile("oval", {}); }), {"\"oval\"", "d_shape", "horseshoe_5"});
   expect_words(error_of([] { library_profile("circle", {{"width", 3}}); }), {"no size \"width\"", "radius 3"});
-  expect_words(error_of([] { library_profile("arch", {{"width", -3}}); }), {"arch"});
+  expect_words(error_of([] { library_profile("arch", {{"width", -3}}); }), {"arch", "width is -3", "at least 0.1"});
+  expect_words(error_of([] { library_profile("arch", {{"height", 2}}); }), {"height is 2", "at least 3"});
+  EXPECT_NO_THROW(library_profile("horseshoe_3", {{"crown_center_height", 0}}));
   expect_words(error_of([] { library_profile("horseshoe_3", {{"side_radius", 0.5}}); }), {"horseshoe_3"});
 }
 
@@ -72,8 +74,9 @@ TEST(ProfileJson, LinesAndArcsInEveryWayOfSaying) {
   EXPECT_NEAR(area(R"("through": [0, 3])"), 4 + 2 * pi, 1e-9);
   EXPECT_NEAR(area(R"("bulge": -1)"), 4 + 2 * pi, 1e-9);
   EXPECT_NEAR(area(R"("center": [0, -1])"), 4 + 8 * (std::asin(1 / std::sqrt(2.0)) - 0.5), 1e-9);
-  EXPECT_NEAR(area(R"("through": [0, 0.5])"), area(R"("through": [0, 0.5])"), 0.0);
-  EXPECT_LT(area(R"("through": [0, 0.5])"), 4.0);  // hollow
+  // Hollow: a segment of a circle of chord 4 and rise 0.5 is missing.
+  const double r = (4.0 + 0.25) / 1.0, half = std::asin(2.0 / r);
+  EXPECT_NEAR(area(R"("through": [0, 0.5])"), 4.0 - r * r * (half - std::sin(half) * std::cos(half)), 1e-9);
 }
 
 TEST(ProfileJson, RefusalsNameTheKey) {
