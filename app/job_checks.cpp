@@ -104,7 +104,13 @@ void check_lines_and_cells(const JobState& state) {
     longest = std::max(longest, profile.profile.length_m());
     for (std::size_t i = 0; i < state.job.lines.size(); ++i) {
       try {
-        static_cast<void>(line_polygon(profile.profile, state.job.lines[i]));
+        DesignLine line = state.job.lines[i];
+        static_cast<void>(line_polygon(profile.profile, line));
+        double longest_round_m = 0.0;
+        for (const JobRound& round : state.job.rounds)
+          longest_round_m = std::max(longest_round_m, round.to_m - round.from_m);
+        line.offset_m += line.growth_per_m * longest_round_m;
+        if (line.growth_per_m != 0.0) static_cast<void>(line_polygon(profile.profile, line));
       } catch (const Error& error) {
         throw Error(error.what_is_wrong(), job_key(state, "lines[" + std::to_string(i) + "].offset"), error.mend());
       }
@@ -119,6 +125,30 @@ void check_lines_and_cells(const JobState& state) {
               "choose a shorter stretch, or larger slice_m and cell_m in options.profiling");
 }
 
+/// A name that nothing bears would leave its limits unused.
+void check_tolerance_names(const JobState& state) {
+  if (!state.tolerances) return;
+  const auto& rows = state.tolerances->rows;
+  const auto& sectors = state.job.sectors;
+  const std::string set = "the tolerances " + state.tolerances->name;
+  for (const ToleranceRow& row : rows)
+    if (row.sector != "any" &&
+        std::none_of(sectors.begin(), sectors.end(), [&](const Sector& sector) { return sector.name == row.sector; }))
+      throw Error(
+          set + " limit the sector \"" + row.sector + "\", which the job does not have", job_key(state, "tolerances"),
+          "name it as in \"sectors\": " + [&] {
+            std::string names;
+            for (const Sector& sector : sectors) names += (names.empty() ? "" : ", ") + sector.name;
+            return names;
+          }());
+  for (const RockClassFrom& rock : state.job.tolerances->rock_classes)
+    if (rock.rock_class != "any" && std::none_of(rows.begin(), rows.end(), [&](const ToleranceRow& row) {
+          return row.rock_class == rock.rock_class;
+        }))
+      throw Error(set + " do not know the rock class \"" + rock.rock_class + "\"",
+                  job_key(state, "tolerances.rock_classes"), "write \"any\", or a class of the set");
+}
+
 void check_design(const JobState& state) {
   const Job& job = state.job;
   const std::string file = state.file.string();
@@ -128,12 +158,18 @@ void check_design(const JobState& state) {
     throw Error("\"chainage\" without \"alignment\" and \"profile\"", file, "name both files, too");
   if (job.alignment_start_m && !state.alignment)
     throw Error("\"alignment_start\" without \"alignment\"", file, "name the alignment file, too");
-  const bool for_volumes = job.turned_by_cant || job.swell > 0.0 || job.sectors != standard_sectors();
+  const bool for_volumes = job.turned_by_cant || job.swell > 0.0 || job.sectors != standard_sectors() ||
+                           !job.zones.empty() || job.tolerances;
   if (for_volumes && !state.has_design())
-    throw Error("\"cant\", \"swell\" or \"sectors\" without \"alignment\" and \"profile\"", file,
-                "name both files, too");
+    throw Error("\"cant\", \"swell\", \"sectors\", \"zones\" or \"tolerances\" without \"alignment\" and \"profile\"",
+                file, "name both files, too");
   if (job.swell > 0.0 && job.rounds.empty())
     throw Error("\"swell\" without \"rounds\"", file, "it is used for the loose volume of rounds");
+  for (std::size_t i = 0; i < job.lines.size(); ++i)
+    if (job.lines[i].growth_per_m != 0.0 && job.rounds.empty())
+      throw Error("the line \"" + job.lines[i].name + "\" grows with every round, and there are no \"rounds\"",
+                  job_key(state, "lines[" + std::to_string(i) + "].look_out_per_m"), "list the rounds");
+  check_tolerance_names(state);
   if (!state.alignment) return;
   if (job.chainage) check_range(state, "chainage", job.chainage->from_m, job.chainage->to_m);
   for (std::size_t i = 0; i < job.rounds.size(); ++i)

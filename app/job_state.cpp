@@ -14,6 +14,7 @@
 #include "io/read_rings.h"
 #include "io/sha256.h"
 #include "io/targets_csv.h"
+#include "io/tolerances_json.h"
 #include "io/truth_json.h"
 
 namespace adit::app {
@@ -27,6 +28,7 @@ std::vector<std::string> files_of(const Job& job) {
   for (const JobProfile& profile : job.profiles)
     if (!profile.file.empty()) files.push_back(profile.file);
   if (job.rings) files.push_back(job.rings->file);
+  if (job.tolerances && !job.tolerances->file.empty()) files.push_back(job.tolerances->file);
   for (const std::string* file : {&job.control, &job.targets, &job.alignment})
     if (!file->empty()) files.push_back(*file);
   std::sort(files.begin(), files.end());
@@ -45,7 +47,7 @@ void expect_inputs_apart(const JobState& state, const std::vector<std::string>& 
       throw Error("a run would write over this input", input.string(), "move it, or choose another folder with --out");
     };
     for (const char* name : {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "sectors.csv", "rings.csv",
-                             "results.json", "report.pdf", ".lock"})
+                             "clearance.csv", "zones.csv", "tolerances.csv", "results.json", "report.pdf", ".lock"})
       if (real(state.out / name) == input) refuse();
     for (const char* name : {"import", "steps", "report", "figures"}) {
       const fs::path below = input.lexically_relative(real(state.out / name));
@@ -107,6 +109,18 @@ void read_rings(JobState& state) {
   add(file.findings, state.input_findings);
 }
 
+void read_tolerances(JobState& state) {
+  if (!state.job.tolerances) return;
+  const JobTolerances& wanted = *state.job.tolerances;
+  state.tolerances =
+      wanted.library.empty() ? io::read_tolerances(state.folder / wanted.file) : io::library_tolerances(wanted.library);
+  if (state.tolerances->verified_by.empty())
+    state.input_findings.push_back({Severity::warning, "tolerances " + state.tolerances->name,
+                                    "nobody has verified this set against its source (" + state.tolerances->source +
+                                        "): its verdicts are for trying out",
+                                    "compare it with the contract and write \"verified_by\" into the file"});
+}
+
 }  // namespace
 
 JobChainage JobState::stretch() const {
@@ -140,6 +154,7 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
                               profile.interpolated});
   read_control(state);
   read_rings(state);
+  read_tolerances(state);
   if (!state.job.targets.empty()) state.targets = io::read_targets_csv(state.folder / state.job.targets);
   look_at_cant(state);
   check_job(state);

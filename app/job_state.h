@@ -37,6 +37,7 @@ struct JobState {
   std::vector<ControlPoint> control;
   std::vector<TargetObservation> targets;
   std::vector<RingPoint> ring_points;
+  std::optional<ToleranceSet> tolerances;
   std::optional<Truth> truth;  ///< of a simulated job
   Findings input_findings;
 

@@ -17,6 +17,7 @@
 #include "io/atomic_file.h"
 #include "io/csv_tables.h"
 #include "io/results_json.h"
+#include "io/review_tables.h"
 #include "io/sha256.h"
 
 namespace adit::app {
@@ -89,6 +90,10 @@ void write_results(const JobState& state) {
   if (state.results.profile) io::write_file_atomically(state.out / "sections.csv", io::sections_csv(state.results));
   if (state.results.volume) io::write_file_atomically(state.out / "volumes.csv", io::volumes_csv(state.results));
   if (state.results.volume) io::write_file_atomically(state.out / "sectors.csv", io::sectors_csv(state.results));
+  if (state.results.volume && !state.job.zones.empty())
+    io::write_file_atomically(state.out / "zones.csv", io::zones_csv(state.results));
+  if (state.results.volume && state.tolerances)
+    io::write_file_atomically(state.out / "tolerances.csv", io::tolerances_csv(state.results));
   if (state.results.rings) io::write_file_atomically(state.out / "rings.csv", io::rings_csv(state.results));
 }
 

@@ -4,35 +4,22 @@
 #include <cstdio>
 
 #include "core/foundation/angle.h"
+#include "io/csv_cells.h"
 
 namespace adit::io {
 namespace {
 
-std::string fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
-
-/// A name in quotes where it needs them.
-std::string word(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 void add_volume_row(std::string& csv, const std::string& what, const Volume& volume, const char* method,
                     const VolumeAmounts& amounts, bool has_sigma) {
-  csv += what + "," + word(volume.line) + "," + fixed(volume.line_offset_m, 4) + "," + fixed(volume.from_m, 3) + "," +
-         fixed(volume.to_m, 3) + "," + method + "," + fixed(amounts.design_m3, 4) + "," +
-         fixed(amounts.excavated_m3, 4) + "," + fixed(amounts.overbreak_m3, 4) + "," + fixed(amounts.underbreak_m3, 4) +
-         ",";
-  csv += has_sigma ? fixed(volume.sigma_excavated_m3, 4) + "," + fixed(volume.sigma_overbreak_m3, 4) + "," +
-                         fixed(volume.sigma_underbreak_m3, 4)
+  csv += what + "," + csv_word(volume.line) + "," + csv_number(volume.line_offset_m, 4) + "," +
+         csv_number(volume.from_m, 3) + "," + csv_number(volume.to_m, 3) + "," + method + "," +
+         csv_number(amounts.design_m3, 4) + "," + csv_number(amounts.excavated_m3, 4) + "," +
+         csv_number(amounts.overbreak_m3, 4) + "," + csv_number(amounts.underbreak_m3, 4) + ",";
+  csv += has_sigma ? csv_number(volume.sigma_excavated_m3, 4) + "," + csv_number(volume.sigma_overbreak_m3, 4) + "," +
+                         csv_number(volume.sigma_underbreak_m3, 4)
                    : std::string(",,");
-  csv += "," + fixed(volume.coverage, 4) + "," + fixed(volume.interpolated_m2, 3) + "," + fixed(volume.unseen_m2, 3) +
-         "\n";
+  csv += "," + csv_number(volume.coverage, 4) + "," + csv_number(volume.interpolated_m2, 3) + "," +
+         csv_number(volume.unseen_m2, 3) + "," + csv_number(volume.opening_m2, 3) + "\n";
 }
 
 void add_volume(std::string& csv, const std::string& what, const Volume& volume) {
@@ -47,23 +34,26 @@ std::string sections_csv(const Results& results) {
   std::string csv =
       "chainage_m,station_m,axis_east_m,axis_north_m,axis_elevation_m,line,line_offset_m,design_area_m2,area_m2,"
       "overbreak_m2,"
-      "underbreak_m2,max_overbreak_m,max_overbreak_p_m,max_underbreak_m,max_underbreak_p_m,coverage,interpolated\n";
+      "underbreak_m2,max_overbreak_m,max_overbreak_p_m,max_underbreak_m,max_underbreak_p_m,coverage,interpolated,openings\n";
   if (!results.profile) return csv;
   for (const Section& section : results.profile->sections)
     for (const SectionAreas& a : section.lines)
-      csv += fixed(section.chainage_m, 3) + "," + fixed(section.station_m, 3) + "," + fixed(section.axis_site.x(), 4) +
-             "," + fixed(section.axis_site.y(), 4) + "," + fixed(section.axis_site.z(), 4) + "," + word(a.line) + "," +
-             fixed(a.line_offset_m, 4) + "," + fixed(a.design_area_m2, 4) + "," + fixed(a.area_m2, 4) + "," +
-             fixed(a.overbreak_m2, 4) + "," + fixed(a.underbreak_m2, 4) + "," + fixed(a.max_overbreak_m, 4) + "," +
-             fixed(a.max_overbreak_p_m, 3) + "," + fixed(a.max_underbreak_m, 4) + "," + fixed(a.max_underbreak_p_m, 3) +
-             "," + fixed(a.coverage, 4) + "," + fixed(a.interpolated, 4) + "\n";
+      csv += csv_number(section.chainage_m, 3) + "," + csv_number(section.station_m, 3) + "," +
+             csv_number(section.axis_site.x(), 4) + "," + csv_number(section.axis_site.y(), 4) + "," +
+             csv_number(section.axis_site.z(), 4) + "," + csv_word(a.line) + "," + csv_number(a.line_offset_m, 4) +
+             "," + csv_number(a.design_area_m2, 4) + "," + csv_number(a.area_m2, 4) + "," +
+             csv_number(a.overbreak_m2, 4) + "," + csv_number(a.underbreak_m2, 4) + "," +
+             csv_number(a.max_overbreak_m, 4) + "," + csv_number(a.max_overbreak_p_m, 3) + "," +
+             csv_number(a.max_underbreak_m, 4) + "," + csv_number(a.max_underbreak_p_m, 3) + "," +
+             csv_number(a.coverage, 4) + "," + csv_number(a.interpolated, 4) + "," +
+             std::to_string(section.openings.size()) + "\n";
   return csv;
 }
 
 std::string volumes_csv(const Results& results) {
   std::string csv =
       "stretch,line,line_offset_m,from_m,to_m,method,design_m3,excavated_m3,overbreak_m3,underbreak_m3,sigma_excavated_m3,"
-      "sigma_overbreak_m3,sigma_underbreak_m3,coverage,interpolated_m2,unseen_m2\n";
+      "sigma_overbreak_m3,sigma_underbreak_m3,coverage,interpolated_m2,unseen_m2,opening_m2\n";
   if (!results.volume) return csv;
   for (const Volume& volume : results.volume->lines) add_volume(csv, "total", volume);
   for (const RoundVolume& round : results.volume->rounds)
@@ -78,21 +68,21 @@ std::string registration_csv(const Results& results) {
   for (std::size_t i = 0; i < results.registration.scans.size(); ++i) {
     const PlacedScan& scan = results.registration.scans[i];
     if (!scan.placed) {
-      csv += word(scan.name) + ",not placed,,,,,,,,,,,,,\n";
+      csv += csv_word(scan.name) + ",not placed,,,,,,,,,,,,,\n";
       continue;
     }
     const Pose pose = site_from_scan(results, i);
     const YawPitchRoll turn = yaw_pitch_roll(pose);
     std::string weak;
     for (const auto& direction : scan.undetermined) weak += (weak.empty() ? "" : " ") + direction;
-    csv += word(scan.name) + "," + scan.placed_by + "," + fixed(pose.translation().x(), 4) + "," +
-           fixed(pose.translation().y(), 4) + "," + fixed(pose.translation().z(), 4) + "," +
-           fixed(deg_from_rad(turn.yaw_rad), 5) + "," + fixed(deg_from_rad(turn.pitch_rad), 5) + "," +
-           fixed(deg_from_rad(turn.roll_rad), 5) + "," + fixed(1e3 * scan.sigma.along_m, 2) + "," +
-           fixed(1e3 * scan.sigma.across_m, 2) + "," + fixed(1e3 * scan.sigma.up_m, 2) + "," +
-           fixed(1e3 * deg_from_rad(scan.sigma.roll_rad), 2) + "," +
-           fixed(1e3 * deg_from_rad(scan.sigma.pitch_rad), 2) + "," + fixed(1e3 * deg_from_rad(scan.sigma.yaw_rad), 2) +
-           "," + weak + "\n";
+    csv += csv_word(scan.name) + "," + scan.placed_by + "," + csv_number(pose.translation().x(), 4) + "," +
+           csv_number(pose.translation().y(), 4) + "," + csv_number(pose.translation().z(), 4) + "," +
+           csv_number(deg_from_rad(turn.yaw_rad), 5) + "," + csv_number(deg_from_rad(turn.pitch_rad), 5) + "," +
+           csv_number(deg_from_rad(turn.roll_rad), 5) + "," + csv_number(1e3 * scan.sigma.along_m, 2) + "," +
+           csv_number(1e3 * scan.sigma.across_m, 2) + "," + csv_number(1e3 * scan.sigma.up_m, 2) + "," +
+           csv_number(1e3 * deg_from_rad(scan.sigma.roll_rad), 2) + "," +
+           csv_number(1e3 * deg_from_rad(scan.sigma.pitch_rad), 2) + "," +
+           csv_number(1e3 * deg_from_rad(scan.sigma.yaw_rad), 2) + "," + weak + "\n";
   }
   return csv;
 }
@@ -105,12 +95,13 @@ std::string sectors_csv(const Results& results) {
   const auto add = [&](const std::string& stretch, const Volume& volume) {
     for (const SectorVolume& s : volume.sectors) {
       const double surface_m2 = s.surface_m2 > 0.0 ? s.surface_m2 : 1.0;
-      csv += stretch + "," + word(volume.line) + "," + fixed(volume.line_offset_m, 4) + "," + fixed(volume.from_m, 3) +
-             "," + fixed(volume.to_m, 3) + "," + word(s.name) + "," + fixed(s.surface_m2, 3) + "," +
-             fixed(s.measured_m2 / surface_m2, 4) + "," + fixed(s.overbreak_m3, 4) + "," + fixed(s.underbreak_m3, 4) +
-             "," + fixed(s.overbreak_m3 / surface_m2, 4) + "," + fixed(s.max_overbreak_m, 4) + ",";
+      csv += stretch + "," + csv_word(volume.line) + "," + csv_number(volume.line_offset_m, 4) + "," +
+             csv_number(volume.from_m, 3) + "," + csv_number(volume.to_m, 3) + "," + csv_word(s.name) + "," +
+             csv_number(s.surface_m2, 3) + "," + csv_number(s.measured_m2 / surface_m2, 4) + "," +
+             csv_number(s.overbreak_m3, 4) + "," + csv_number(s.underbreak_m3, 4) + "," +
+             csv_number(s.overbreak_m3 / surface_m2, 4) + "," + csv_number(s.max_overbreak_m, 4) + ",";
       csv += s.max_overbreak_m > 0.0
-                 ? fixed(s.max_overbreak_chainage_m, 3) + "," + fixed(s.max_overbreak_clock_deg, 1) + "\n"
+                 ? csv_number(s.max_overbreak_chainage_m, 3) + "," + csv_number(s.max_overbreak_clock_deg, 1) + "\n"
                  : std::string(",\n");
     }
   };
@@ -125,14 +116,15 @@ std::string rings_csv(const Results& results) {
       "vertical_deviation_m,radius_m,ovality_m,major_clock_deg,rms_m,sigma_center_m,sigma_radius_m,tilt_deg,points\n";
   if (!results.rings) return csv;
   const auto known = [](double value, int decimals) {
-    return std::isfinite(value) ? fixed(value, decimals) : std::string();
+    return std::isfinite(value) ? csv_number(value, decimals) : std::string();
   };
   for (const RingResult& r : results.rings->rings)
-    csv += word(r.ring) + "," + fixed(r.chainage_m, 4) + "," + fixed(r.station_m, 4) + "," + fixed(r.center.x(), 4) +
-           "," + fixed(r.center.y(), 4) + "," + fixed(r.center.z(), 4) + "," + fixed(r.horizontal_deviation_m, 4) +
-           "," + fixed(r.vertical_deviation_m, 4) + "," + fixed(r.radius_m, 4) + "," + known(r.ovality_m, 4) + "," +
-           known(r.major_clock_deg, 1) + "," + fixed(r.rms_m, 4) + "," + known(r.sigma_center_m, 4) + "," +
-           known(r.sigma_radius_m, 4) + "," + fixed(r.tilt_deg, 2) + "," + std::to_string(r.residuals.size()) + "\n";
+    csv += csv_word(r.ring) + "," + csv_number(r.chainage_m, 4) + "," + csv_number(r.station_m, 4) + "," +
+           csv_number(r.center.x(), 4) + "," + csv_number(r.center.y(), 4) + "," + csv_number(r.center.z(), 4) + "," +
+           csv_number(r.horizontal_deviation_m, 4) + "," + csv_number(r.vertical_deviation_m, 4) + "," +
+           csv_number(r.radius_m, 4) + "," + known(r.ovality_m, 4) + "," + known(r.major_clock_deg, 1) + "," +
+           csv_number(r.rms_m, 4) + "," + known(r.sigma_center_m, 4) + "," + known(r.sigma_radius_m, 4) + "," +
+           csv_number(r.tilt_deg, 2) + "," + std::to_string(r.residuals.size()) + "\n";
   return csv;
 }
 

@@ -10,7 +10,7 @@
 namespace adit::io {
 namespace {
 
-constexpr std::string_view magic = "ADITMAP2";
+constexpr std::string_view magic = "ADITMAP3";
 constexpr std::size_t header_size = 8 + 4 * 8 + 2 * 8;
 constexpr std::size_t cell_size = 4 + 4 + 4 + 4 + 1;
 constexpr std::size_t checksum_size = 64;

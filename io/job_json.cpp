@@ -4,6 +4,7 @@
 
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
+#include "io/job_design_json.h"
 #include "io/json_place.h"
 #include "io/options_json.h"
 #include "io/text_place.h"
@@ -13,16 +14,6 @@ namespace {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
-
-std::string existing_file(const JsonPlace& place, const fs::path& folder) {
-  const std::string name = place.text();
-  if (name.empty()) place.refuse("the name of a file is needed", "write it relative to the job's folder");
-  std::error_code error;
-  if (!fs::exists(folder / name, error))
-    place.refuse("there is no file " + quoted_word(name), "paths are relative to the folder of job.json");
-  if (fs::is_directory(folder / name, error)) place.refuse(quoted_word(name) + " is a folder", "name a file");
-  return name;
-}
 
 Eigen::Vector3d vector3(const JsonPlace& place) {
   const auto values = place.numbers(3);
@@ -56,109 +47,6 @@ JobScan read_scan(const JsonPlace& place, const fs::path& folder) {
     scan.angles = {rad_from_deg(turns[0]), rad_from_deg(turns[1]), rad_from_deg(turns[2])};
   }
   return scan;
-}
-
-std::vector<JobProfile> read_profiles(const JsonPlace& place, const fs::path& folder) {
-  std::vector<JobProfile> profiles;
-  if (place.is_text()) {
-    profiles.emplace_back();
-    profiles.back().file = existing_file(place, folder);
-    profiles.back().from_m = -1e9;
-    return profiles;
-  }
-  const std::vector<JsonPlace> places = place.is_object() ? std::vector<JsonPlace>{place} : place.items();
-  for (const JsonPlace& one : places) {
-    one.only_keys({"file", "layer", "library", "sizes", "from", "to_next"});
-    JobProfile profile;
-    if (one.has("file") == one.has("library"))
-      one.refuse("a profile is a \"file\" or one of the \"library\"", "write one of the two");
-    if (one.has("file")) profile.file = existing_file(one.at("file"), folder);
-    profile.library = one.text_or("library", "");
-    if (one.has("sizes"))
-      for (const std::string& name : one.at("sizes").keys())
-        profile.sizes[name] = one.at("sizes").at(name).number_between(-1000.0, 1000.0, "m");
-    if (one.has("to_next")) {
-      const std::string way = one.at("to_next").text();
-      if (way != "stepped" && way != "interpolated")
-        one.at("to_next").refuse("unknown word", "write stepped or interpolated");
-      profile.interpolated = way == "interpolated";
-    }
-    profile.layer = one.text_or("layer", "");
-    profile.from_m = one.number_or("from", -1e9);
-    if (!profiles.empty() && profile.from_m <= profiles.back().from_m)
-      one.refuse("profiles must stand in order of \"from\"", "give every profile but the first a larger \"from\"");
-    profiles.push_back(profile);
-  }
-  if (!profiles.empty() && profiles.back().interpolated)
-    places.back().refuse("nothing follows the last profile", "leave its \"to_next\" out");
-  if (profiles.empty()) place.refuse("at least one profile is needed", "name a file");
-  return profiles;
-}
-
-std::vector<DesignLine> read_lines(const JsonPlace& place) {
-  std::vector<DesignLine> lines;
-  std::set<std::string> names;
-  for (const JsonPlace& one : place.items()) {
-    one.only_keys({"name", "offset"});
-    if (one.at("name").text().empty())
-      one.at("name").refuse("a line needs a name", "every number names its line: write one");
-    lines.push_back({one.at("name").text(), one.at("offset").number_between(-10.0, 10.0, "m")});
-    if (!names.insert(lines.back().name).second)
-      one.refuse("two lines have this name", "every number names its line: rename one");
-  }
-  if (lines.empty())
-    place.refuse("at least one line is needed", "for instance {\"name\": \"excavation\", \"offset\": 0.0}");
-  return lines;
-}
-
-JobChainage read_chainage(const JsonPlace& place) {
-  place.only_keys({"from", "to", "interval"});
-  JobChainage chainage;
-  chainage.from_m = place.at("from").number();
-  chainage.to_m = place.at("to").number();
-  if (place.has("interval")) chainage.interval_m = place.at("interval").number_between(0.01, 1e5, "m");
-  if (!(chainage.to_m > chainage.from_m))
-    place.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
-  if ((chainage.to_m - chainage.from_m) / chainage.interval_m > 100000.0)
-    place.refuse("more than 100,000 sections", "use a larger interval");
-  return chainage;
-}
-
-std::vector<JobRound> read_rounds(const JsonPlace& place) {
-  std::vector<JobRound> rounds;
-  for (const JsonPlace& one : place.items()) {
-    one.only_keys({"number", "from", "to", "drilled"});
-    JobRound round;
-    round.number = static_cast<int>(one.at("number").number_between(-1e6, 1e6, ""));
-    static_cast<void>(one.at("number").whole_number());
-    round.from_m = one.at("from").number();
-    round.to_m = one.at("to").number();
-    if (!(round.to_m > round.from_m))
-      one.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
-    if (one.has("drilled")) round.drilled_m = one.at("drilled").number_between(0.1, 30.0, "m");
-    for (const JobRound& other : rounds) {
-      if (other.number == round.number) one.refuse("two rounds have this number", "number every round once");
-      if (round.from_m < other.to_m - 1e-9 && round.to_m > other.from_m + 1e-9)
-        one.refuse("it overlaps round " + std::to_string(other.number), "end a round where the next one begins");
-    }
-    rounds.push_back(round);
-  }
-  return rounds;
-}
-
-std::vector<Sector> read_sectors(const JsonPlace& place) {
-  std::vector<Sector> sectors;
-  for (const JsonPlace& one : place.items()) {
-    one.only_keys({"name", "from_deg", "to_deg"});
-    sectors.push_back({one.at("name").text(), one.at("from_deg").number_between(-180.0, 180.0, "degrees"),
-                       one.at("to_deg").number_between(-180.0, 180.0, "degrees")});
-  }
-  try {
-    check_sectors(sectors);
-  } catch (const Error& error) {
-    place.refuse(error.what_is_wrong(), error.mend());
-  }
-  return sectors;
 }
 
 JobRings read_job_rings(const JsonPlace& place, const fs::path& folder) {
@@ -214,9 +102,10 @@ Job read_job(const fs::path& file) {
   const json root = parse_json_file(file);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const JsonPlace place(root, file.string());
-  place.only_keys({"adit", "name", "client", "surveyor", "scans", "control", "targets", "alignment", "alignment_name",
-                   "alignment_start", "profile", "cant", "lines", "chainage", "rounds", "sectors", "swell", "rings",
-                   "options"});
+  place.only_keys({"adit",    "name",      "client",         "surveyor",        "scans",   "control",
+                   "targets", "alignment", "alignment_name", "alignment_start", "profile", "cant",
+                   "lines",   "chainage",  "rounds",         "drive",           "zones",   "tolerances",
+                   "sectors", "swell",     "rings",          "options"});
   if (place.at("adit").whole_number() != 1)
     place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
   Job job;
@@ -236,18 +125,7 @@ Job read_job(const fs::path& file) {
   if (place.has("alignment")) job.alignment = existing_file(place.at("alignment"), folder);
   job.alignment_name = place.text_or("alignment_name", "");
   if (place.has("alignment_start")) job.alignment_start_m = place.at("alignment_start").number_between(-1e6, 1e7, "m");
-  if (place.has("profile")) job.profiles = read_profiles(place.at("profile"), folder);
-  if (place.has("cant")) {
-    const std::string way = place.at("cant").text();
-    if (way != "turns_profile" && way != "ignored")
-      place.at("cant").refuse("unknown word", "write turns_profile or ignored");
-    job.turned_by_cant = way == "turns_profile";
-  }
-  if (place.has("lines")) job.lines = read_lines(place.at("lines"));
-  if (place.has("chainage")) job.chainage = read_chainage(place.at("chainage"));
-  if (place.has("rounds")) job.rounds = read_rounds(place.at("rounds"));
-  if (place.has("sectors")) job.sectors = read_sectors(place.at("sectors"));
-  if (place.has("swell")) job.swell = place.at("swell").number_between(1.0, 3.0, "");
+  read_job_design(place, folder, job);
   if (place.has("options")) {
     const JsonPlace options = place.at("options");
     std::vector<std::string> groups;
@@ -284,30 +162,7 @@ std::string job_text(const Job& job) {
   if (!job.alignment.empty()) root["alignment"] = job.alignment;
   if (!job.alignment_name.empty()) root["alignment_name"] = job.alignment_name;
   if (job.alignment_start_m) root["alignment_start"] = *job.alignment_start_m;
-  for (const JobProfile& profile : job.profiles) {
-    nlohmann::ordered_json one;
-    if (!profile.file.empty()) one["file"] = profile.file;
-    if (!profile.library.empty()) one["library"] = profile.library;
-    for (const auto& [name, size] : profile.sizes) one["sizes"][name] = size;
-    if (profile.interpolated) one["to_next"] = "interpolated";
-    if (!profile.layer.empty()) one["layer"] = profile.layer;
-    if (profile.from_m > -1e9) one["from"] = profile.from_m;
-    root["profile"].push_back(one);
-  }
-  if (job.turned_by_cant) root["cant"] = "turns_profile";
-  for (const DesignLine& line : job.lines) root["lines"].push_back({{"name", line.name}, {"offset", line.offset_m}});
-  if (job.chainage)
-    root["chainage"] = {
-        {"from", job.chainage->from_m}, {"to", job.chainage->to_m}, {"interval", job.chainage->interval_m}};
-  for (const JobRound& round : job.rounds) {
-    nlohmann::ordered_json one{{"number", round.number}, {"from", round.from_m}, {"to", round.to_m}};
-    if (round.drilled_m > 0.0) one["drilled"] = round.drilled_m;
-    root["rounds"].push_back(one);
-  }
-  if (job.sectors != standard_sectors())
-    for (const Sector& sector : job.sectors)
-      root["sectors"].push_back({{"name", sector.name}, {"from_deg", sector.from_deg}, {"to_deg", sector.to_deg}});
-  if (job.swell > 0.0) root["swell"] = job.swell;
+  add_job_design(job, root);
   if (job.rings) {
     nlohmann::ordered_json one{{"file", job.rings->file}};
     if (job.rings->target_offset_m != 0.0) one["target_offset"] = job.rings->target_offset_m;

@@ -1,9 +1,11 @@
 #include "io/results_json.h"
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/foundation/angle.h"
+#include "io/review_tables.h"
 
 namespace adit::io {
 namespace {
@@ -140,6 +142,9 @@ json section_json(const Section& section) {
   json one{{"chainage", section.chainage_m}, {"station", section.station_m}};
   const Eigen::Vector3d& axis = section.axis_site;
   one["axis"] = {axis.x(), axis.y(), axis.z()};
+  one["openings"] = json::array();
+  for (const LineOpening& opening : section.openings)
+    one["openings"].push_back({{"p_from_m", opening.p_from_m}, {"p_to_m", opening.p_to_m}});
   if (section.lines.empty()) return one;
   add_members(one, line_json(section.lines.front()));
   one["lines"] = json::array();
@@ -189,8 +194,11 @@ json review_json(const RoundVolume& round) {
 }
 
 json volume_json(const Volume& volume) {
-  json one{
-      {"line", volume.line}, {"line_offset_m", volume.line_offset_m}, {"from", volume.from_m}, {"to", volume.to_m}};
+  json one{{"line", volume.line},
+           {"line_offset_m", volume.line_offset_m},
+           {"line_growth_per_m", volume.line_growth_per_m},
+           {"from", volume.from_m},
+           {"to", volume.to_m}};
   add_members(one, amounts_json(volume.slices));
   one["sigma_m3"] = volume.sigma_excavated_m3;
   one["sigma_overbreak_m3"] = volume.sigma_overbreak_m3;
@@ -199,6 +207,7 @@ json volume_json(const Volume& volume) {
   one["measured_m2"] = volume.measured_m2;
   one["interpolated_m2"] = volume.interpolated_m2;
   one["unseen_m2"] = volume.unseen_m2;
+  one["opening_m2"] = volume.opening_m2;
   one["closure_m3"] = volume.closure_m3;
   one["sectors"] = json::array();
   for (const SectorVolume& sector : volume.sectors) one["sectors"].push_back(sector_json(sector));
@@ -243,6 +252,75 @@ json mesh_json(const MeshSummary& mesh) {
           {"sigma_deviation_m", number(mesh.sigma_deviation_m)}};
 }
 
+json clearance_json(const ClearanceResult& clearance, const Results& results) {
+  json one{{"line", clearance.line}, {"line_offset_m", clearance.line_offset_m}, {"points", clearance.points}};
+  one["intrusions"] = json::array();
+  for (const Intrusion& intrusion : clearance.intrusions) {
+    const ClearancePoint& deepest = intrusion.deepest;
+    const Eigen::Vector3d& site = intrusion.deepest_site;
+    one["intrusions"].push_back({{"points", intrusion.points},
+                                 {"from", intrusion.from_m},
+                                 {"to", intrusion.to_m},
+                                 {"inside_m", deepest.inside_m},
+                                 {"chainage", deepest.at.s_m},
+                                 {"offset", deepest.at.x_m},
+                                 {"height", deepest.at.z_m},
+                                 {"site", {site.x(), site.y(), site.z()}},
+                                 {"scan", results.import.scans.at(deepest.scan).name}});
+  }
+  return one;
+}
+
+/// Zones with their amounts, and overbreak by reason; what lies in no zone is "unassigned".
+void add_zones(json& root, const VolumeResult& volume) {
+  if (volume.zones.empty()) return;
+  std::map<std::string, double> by_reason;
+  double rest_m3 = volume.lines.front().slices.overbreak_m3;
+  root["zones"] = json::array();
+  for (const auto& [zone, amounts] : volume.zones) {
+    json one{{"from", zone.from_m},   {"to", zone.to_m},       {"from_deg", zone.from_deg},
+             {"to_deg", zone.to_deg}, {"reason", zone.reason}, {"note", zone.note}};
+    json more = sector_json(amounts);
+    more.erase("name");
+    add_members(one, more);
+    root["zones"].push_back(one);
+    by_reason[zone.reason] += amounts.overbreak_m3;
+    rest_m3 -= amounts.overbreak_m3;
+  }
+  root["reasons"] = json::object();
+  for (const auto& [reason, overbreak_m3] : by_reason) root["reasons"][reason] = {{"overbreak_m3", overbreak_m3}};
+  root["reasons"]["unassigned"] = {{"overbreak_m3", rest_m3}};
+}
+
+json limit_json(double value) {
+  return value >= ToleranceRow::unlimited ? json(nullptr) : json(value);
+}
+
+json tolerances_json(const ToleranceResult& tolerances) {
+  json one{{"set", tolerances.set}, {"source", tolerances.source}};
+  one["verified_by"] = tolerances.verified_by.empty() ? json(nullptr) : json(tolerances.verified_by);
+  one["checks"] = json::array();
+  for (const ToleranceCheck& c : tolerances.checks)
+    one["checks"].push_back({{"rock_class", c.rock_class},
+                             {"sector", c.sector},
+                             {"verdict", verdict(c)},
+                             {"surface_m2", c.surface_m2},
+                             {"coverage", c.coverage()},
+                             {"mean_overbreak_m", c.mean_overbreak_m},
+                             {"limit_mean_overbreak_m", limit_json(c.limits.mean_overbreak_m)},
+                             {"max_overbreak_m", c.max_overbreak_m},
+                             {"limit_max_overbreak_m", limit_json(c.limits.max_overbreak_m)},
+                             {"max_overbreak_chainage", c.max_overbreak_chainage_m},
+                             {"over_limit_m2", c.over_limit_m2},
+                             {"max_underbreak_m", c.max_underbreak_m},
+                             {"limit_max_underbreak_m", limit_json(c.limits.max_underbreak_m)},
+                             {"max_underbreak_chainage", c.max_underbreak_chainage_m},
+                             {"under_limit_m2", c.under_limit_m2},
+                             {"max_underbreak_area_m2", c.max_underbreak_area_m2},
+                             {"limit_max_underbreak_area_m2", limit_json(c.limits.max_underbreak_area_m2)}});
+  return one;
+}
+
 json truth_json(const TruthComparison& truth) {
   return {{"worst_position_error_mm", 1e3 * truth.worst_position_error_m},
           {"worst_rotation_error_deg", deg_from_rad(truth.worst_rotation_error_rad)},
@@ -268,6 +346,8 @@ std::string results_text(const Results& results) {
   if (results.profile) {
     root["sections"] = json::array();
     for (const Section& section : results.profile->sections) root["sections"].push_back(section_json(section));
+    for (const ClearanceResult& clearance : results.profile->clearances)
+      root["clearance"].push_back(clearance_json(clearance, results));
   }
   if (results.volume && !results.volume->lines.empty()) {
     root["volume"] = volume_json(results.volume->lines.front());
@@ -280,6 +360,8 @@ std::string results_text(const Results& results) {
       add_members(one, volume_json(round.volume));
       root["rounds"].push_back(one);
     }
+    add_zones(root, *results.volume);
+    if (!results.volume->tolerances.set.empty()) root["tolerances"] = tolerances_json(results.volume->tolerances);
   }
   if (results.rings) {
     root["rings"] = json::array();

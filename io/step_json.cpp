@@ -56,14 +56,27 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SectorVolume, name, surface_m2, measured_m2, 
                                    max_overbreak_m, max_overbreak_chainage_m, max_overbreak_clock_deg)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RoundReview, lookout_collar_m, lookout_toe_m, lookout_per_m, lookout_sigma_per_m,
                                    contour_ratio, overbreak_area_sd_m2, affected_share, mean_overbreak_m)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Volume, line, line_offset_m, from_m, to_m, slices, average_end_area, prismoidal,
-                                   sigma_excavated_m3, sigma_overbreak_m3, sigma_underbreak_m3, coverage, measured_m2,
-                                   interpolated_m2, unseen_m2, closure_m3, sectors)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Volume, line, line_offset_m, line_growth_per_m, from_m, to_m, slices,
+                                   average_end_area, prismoidal, sigma_excavated_m3, sigma_overbreak_m3,
+                                   sigma_underbreak_m3, coverage, measured_m2, interpolated_m2, unseen_m2, opening_m2,
+                                   closure_m3, sectors)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RoundVolume, number, drilled_m, pull_m, loose_m3, review, volume)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeResult, lines, rounds, findings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReasonZone, from_m, to_m, from_deg, to_deg, reason, note)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ZoneVolume, zone, amounts)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToleranceRow, rock_class, sector, mean_overbreak_m, max_overbreak_m,
+                                   max_underbreak_m, max_underbreak_area_m2)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToleranceCheck, rock_class, sector, limits, surface_m2, measured_m2,
+                                   mean_overbreak_m, max_overbreak_m, max_overbreak_chainage_m, max_underbreak_m,
+                                   max_underbreak_chainage_m, max_underbreak_area_m2, over_limit_m2, under_limit_m2)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToleranceResult, set, source, verified_by, checks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeResult, lines, rounds, zones, tolerances, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshSummary, points, triangles, edges, boundary_loops, components, area_m2,
                                    mean_edge_m, longest_loop_m, holes_m, mean_deviation_m, sigma_deviation_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SurfaceResult, mesh, findings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TunnelPoint, s_m, x_m, z_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClearancePoint, scan, at, inside_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Intrusion, points, from_m, to_m, deepest, deepest_site)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClearanceResult, line, line_offset_m, points, intrusions)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingResidual, point, clock_deg, residual_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingResult, ring, center, chainage_m, station_m, horizontal_deviation_m,
                                    vertical_deviation_m, radius_m, ovality_m, major_clock_deg, rms_m, sigma_center_m,
@@ -145,6 +158,7 @@ std::string step_text(const ProfileResult& result) {
   return nlohmann::json{{"points_used", result.points_used},
                         {"points_inside", result.points_inside},
                         {"points_outside", result.points_outside},
+                        {"clearances", result.clearances},
                         {"findings", result.findings}}
       .dump(1);
 }
@@ -181,6 +195,7 @@ void read_step_text(const std::string& text, ProfileResult& result) {
     result.points_used = json.at("points_used").get<std::uint64_t>();
     result.points_inside = json.at("points_inside").get<std::uint64_t>();
     result.points_outside = json.at("points_outside").get<std::uint64_t>();
+    result.clearances = json.at("clearances").get<std::vector<ClearanceResult>>();
     result.findings = json.at("findings").get<Findings>();
   } catch (const nlohmann::json::exception& error) {
     throw Error(std::string("what an earlier run left is damaged: ") + error.what(), "", "run the job again");

@@ -20,7 +20,8 @@ constexpr double longest_strip_m = 100.0;
 constexpr double least_strip_mm = 38.0;
 constexpr double most_strip_mm = 105.0;
 constexpr int most_pixels = 4000;
-constexpr int cell_pixels = 5;  // enough for the dot of an interpolated cell
+constexpr int opening_hatch = 6;  // pixels from line to line
+constexpr int cell_pixels = 5;    // enough for the dot of an interpolated cell
 
 struct Strip {
   std::size_t row_begin = 0;
@@ -51,7 +52,12 @@ std::array<std::uint8_t, 4> bytes_of(const Colour& c) {
 }
 
 void paint_cell(Picture& picture, int x0, int y0, int size, const MapCell& cell, const DeviationScale& scale) {
-  if (cell.kind == CellKind::unseen) return;
+  if (cell.kind == CellKind::opening) {
+    for (int y = y0; y < y0 + size; ++y)
+      for (int x = x0; x < x0 + size; ++x)
+        if ((x + y) % opening_hatch < opening_hatch / 2) picture.set_pixel(x, y, bytes_of(colours::black));
+  }
+  if (!has_rock(cell.kind)) return;
   const bool guessed = cell.kind == CellKind::interpolated;
   const Colour colour = deviation_colour(scale, static_cast<double>(cell.deviation_m));
   const auto fill = bytes_of(guessed ? mixed(colour, colours::white, 0.55) : colour);
@@ -152,6 +158,10 @@ void draw_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, 
                   mixed(deviation_colour(scale, 0.6 * scale.most_m), colours::black, 0.5));
   canvas.frame(guessed, {colours::grey, 0.12, {}});
   canvas.text({x + 5.0, unseen.centre().y()}, "not seen", {.size_mm = text_mm, .down = Down::middle});
+  const Rect open{x + 28.0, unseen.top, unseen.width, unseen.height};
+  canvas.hatch({ring_of(open)}, {colours::black, 0.25, {}}, 0.8, -M_PI / 4.0);
+  canvas.frame(open, {colours::grey, 0.12, {}});
+  canvas.text({open.right() + 1.0, open.centre().y()}, "open", {.size_mm = text_mm, .down = Down::middle});
   canvas.text({x + 5.0, guessed.centre().y()}, "interpolated", {.size_mm = text_mm, .down = Down::middle});
   canvas.text({x, guessed.bottom() + 0.8}, "from line: " + texts.line, {.size_mm = text_mm, .colour = colours::grey});
 }
@@ -161,7 +171,7 @@ void draw_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, 
 std::vector<float> seen_deviations(const DeviationMap& map) {
   std::vector<float> values;
   for (const MapCell& cell : map.cells)
-    if (cell.kind != CellKind::unseen) values.push_back(cell.deviation_m);
+    if (has_rock(cell.kind)) values.push_back(cell.deviation_m);
   return values;
 }
 

@@ -24,6 +24,7 @@ int draw_pages(Canvas& canvas, const ReportContent& content, const std::vector<R
   then([&] { add_title_page(flow, content, views); });
   if (!is_of_rings_alone(*content.results)) then([&] { add_registration_pages(flow, content); });
   then([&] { add_volume_pages(flow, content); });
+  then([&] { add_review_pages(flow, content); });
   then([&] { add_chainage_pages(flow, content); });
   then([&] { add_ring_pages(flow, content); });
   then([&] { add_map_page(flow, content); });

@@ -13,6 +13,7 @@ void add_title_page(PageFlow& flow, const ReportContent& content, const std::vec
 void add_registration_pages(PageFlow& flow, const ReportContent& content);
 void add_chainage_pages(PageFlow& flow, const ReportContent& content);
 void add_volume_pages(PageFlow& flow, const ReportContent& content);
+void add_review_pages(PageFlow& flow, const ReportContent& content);
 void add_ring_pages(PageFlow& flow, const ReportContent& content);
 void add_map_page(PageFlow& flow, const ReportContent& content);
 void add_view_pages(PageFlow& flow, const std::vector<ReportView>& views);

@@ -19,6 +19,7 @@ const Pen other_line_pen{colours::ink_blue, 0.2, {1.6, 0.8}};
 const Pen measured_pen{colours::black, 0.35, {}};
 const Pen interpolated_pen{colours::black, 0.3, {1.0, 0.7}};
 const Pen unseen_pen{colours::light_grey, 0.35, {0.3, 0.8}};
+const Pen opening_pen{colours::black, 0.2, {0.4, 1.6}};
 const Pen axis_pen{colours::grey, 0.15, {2.5, 0.7, 0.4, 0.7}};
 
 PaperRing on_paper(const PlotArea& area, const Polygon& ring) {
@@ -56,16 +57,17 @@ void draw_axis_cross(Canvas& canvas, const PlotArea& area) {
 }
 
 const Pen& pen_of(CellKind kind) {
+  if (kind == CellKind::opening) return opening_pen;
   return kind == CellKind::measured ? measured_pen : kind == CellKind::interpolated ? interpolated_pen : unseen_pen;
 }
 
-// The gaps stay open: a dotted trace along the line says that nobody looked there.
+// The gaps stay open: a dotted trace along the line says that nobody looked there, or that there is none.
 void draw_outline(Canvas& canvas, const PlotArea& area, const std::vector<OutlineRun>& runs) {
   for (const OutlineRun& run : runs) {
-    if (run.kind != CellKind::unseen) {
+    if (has_rock(run.kind)) {
       canvas.polyline(on_paper(area, run.points), pen_of(run.kind));
     } else if (run.points.size() > 3) {
-      canvas.polyline(on_paper(area, Polygon(run.points.begin() + 1, run.points.end() - 1)), unseen_pen);
+      canvas.polyline(on_paper(area, Polygon(run.points.begin() + 1, run.points.end() - 1)), pen_of(run.kind));
     }
   }
 }
@@ -111,6 +113,7 @@ std::vector<KeyLine> key_of(const std::vector<OutlineRun>& runs, const std::vect
   if (has(CellKind::measured)) key.push_back({"measured", measured_pen});
   if (has(CellKind::interpolated)) key.push_back({"interpolated", interpolated_pen});
   if (has(CellKind::unseen)) key.push_back({"not seen", {colours::grey, unseen_pen.width_mm, unseen_pen.dashes_mm}});
+  if (has(CellKind::opening)) key.push_back({"open", opening_pen});
   return key;
 }
 
@@ -151,7 +154,8 @@ void draw_numbers(Canvas& canvas, const PaperPoint& at, double room_mm, const Se
 std::vector<SectionLine> section_lines(const DesignTunnel& design, double chainage_m) {
   const Polygon profile = design.profile_at(chainage_m).flattened(1e-3);
   std::vector<SectionLine> lines;
-  for (const DesignLine& line : design.lines()) {
+  for (const DesignLine& growing : design.lines()) {
+    const DesignLine line = design.line_at(growing, chainage_m);
     if (line.offset_m == 0.0) {
       lines.push_back({line.name, 0.0, profile});
       continue;

@@ -10,7 +10,7 @@ namespace adit::render {
 namespace {
 
 CellKind weaker(CellKind a, CellKind b) {
-  const auto rank = [](CellKind k) { return k == CellKind::unseen ? 2 : k == CellKind::interpolated ? 1 : 0; };
+  const auto rank = [](CellKind k) { return has_rock(k) ? (k == CellKind::interpolated ? 1 : 0) : 2; };
   return rank(a) > rank(b) ? a : b;
 }
 

@@ -58,6 +58,24 @@ void add_volumes(std::string& text, const VolumeResult& result) {
   }
 }
 
+void add_review(std::string& text, const Results& results) {
+  if (results.profile)
+    for (const ClearanceResult& clearance : results.profile->clearances)
+      add(text, "\nClearance \"%s\": %llu points in %zu places inside it\n", clearance.line.c_str(),
+          static_cast<unsigned long long>(clearance.points), clearance.intrusions.size());
+  if (!results.volume) return;
+  for (std::size_t i = 0; i < results.volume->zones.size(); ++i) {
+    const auto& [zone, amounts] = results.volume->zones[i];
+    add(text, "%s  zone %zu, %s, chainage %.2f to %.2f: overbreak %.2f m3\n", i == 0 ? "\nZones\n" : "", i + 1,
+        zone.reason.c_str(), zone.from_m, zone.to_m, amounts.overbreak_m3);
+  }
+  const ToleranceResult& tolerances = results.volume->tolerances;
+  if (tolerances.set.empty()) return;
+  const auto kept = std::count_if(tolerances.checks.begin(), tolerances.checks.end(),
+                                  [](const ToleranceCheck& check) { return check.kept(); });
+  add(text, "\nTolerances \"%s\": %td of %zu kept\n", tolerances.set.c_str(), kept, tolerances.checks.size());
+}
+
 std::string millimetres(double metres) {
   char text[48];
   std::snprintf(text, sizeof text, "%.1f mm", 1e3 * metres);
@@ -107,6 +125,7 @@ std::string summary_text(const JobState& state) {
         results.surface->mesh.boundary_loops, results.surface->mesh.holes_m, results.surface->mesh.area_m2);
   if (results.profile) add(text, "\nSections: %zu\n", results.profile->sections.size());
   if (results.volume) add_volumes(text, *results.volume);
+  add_review(text, results);
   if (results.rings) add_rings(text, *results.rings);
   if (results.truth) add_truth(text, *results.truth);
   for (const Finding& finding : all_findings(results)) {

@@ -236,9 +236,13 @@ void summarise(JobState& state) {
 }
 
 void make_design(JobState& state) {
-  if (state.has_design())
-    state.design = DesignTunnel(*state.alignment, state.profiles, state.job.lines, state.job.turned_by_cant)
-                       .relative_to(state.results.import.origin.position);
+  if (!state.has_design()) return;
+  Drive drive;
+  drive.up_chainage = state.job.driven_up_chainage;
+  for (const JobRound& round : state.job.rounds) drive.rounds.push_back({round.from_m, round.to_m});
+  state.design = DesignTunnel(*state.alignment, state.profiles, state.job.lines, state.job.turned_by_cant)
+                     .driven(drive)
+                     .relative_to(state.results.import.origin.position);
 }
 
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {

@@ -8,6 +8,7 @@
 #include "core/foundation/parallel.h"
 #include "io/atomic_file.h"
 #include "io/deviation_map_file.h"
+#include "io/review_tables.h"
 #include "io/step_json.h"
 #include "io/text_file.h"
 
@@ -19,9 +20,13 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "profile 6|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
+  std::string text = "profile 7|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
   text += state.profiles_text();
-  for (const DesignLine& line : state.job.lines) text += "|" + line.name + short_number(line.offset_m);
+  for (const DesignLine& line : state.job.lines)
+    text += "|" + line.name + short_number(line.offset_m) + "," + short_number(line.growth_per_m) +
+            (line.clearance ? " clear" : "");
+  text += state.job.driven_up_chainage ? "" : "|down";
+  for (const JobRound& round : state.job.rounds) text += "|" + short_number(round.from_m) + short_number(round.to_m);
   const JobChainage stretch = state.stretch();
   text +=
       "|" + short_number(stretch.from_m) + "|" + short_number(stretch.to_m) + "|" + short_number(stretch.interval_m);
@@ -85,9 +90,54 @@ void report_weak_coverage(ProfileResult& result, const DeviationMap& map, std::u
        mend_of_coverage(map, sparse_cells, "shorten \"chainage\" to what was scanned, or scan the rest")});
 }
 
+Finding intrusion_finding(const ClearanceResult& clearance, bool all_listed) {
+  const auto deepest =
+      std::max_element(clearance.intrusions.begin(), clearance.intrusions.end(),
+                       [](const Intrusion& a, const Intrusion& b) { return a.deepest.inside_m < b.deepest.inside_m; });
+  char words[260];
+  std::snprintf(
+      words, sizeof words,
+      "%llu points in %zu places lie inside it, the deepest by %.3f m at chainage %.2f, offset %.2f, height %.2f%s",
+      static_cast<unsigned long long>(clearance.points), clearance.intrusions.size(), deepest->deepest.inside_m,
+      deepest->deepest.at.s_m, deepest->deepest.at.x_m, deepest->deepest.at.z_m,
+      all_listed ? "" : "; clearance.csv lists the first million of them");
+  return {Severity::decision, "clearance line " + clearance.line, words,
+          "look at clearance.csv: rock, or equipment that will be taken away?"};
+}
+
+/// The clearance lines of the job, with every point inside them in clearance.csv.
+void check_clearances(JobState& state, ProfileResult& result, Progress& progress) {
+  std::filesystem::remove(state.out / "clearance.csv");
+  std::vector<DesignLine> lines;
+  for (const DesignLine& line : state.job.lines)
+    if (line.clearance) lines.push_back(line);
+  if (lines.empty()) return;
+  const std::vector<PlacedTiles> scans = placed_tiles(state);
+  const ChainageIndex index(scans, state.design->alignment());
+  const ProfilingOptions& options = state.job.options.profiling;
+  const ProjectOrigin& origin = state.results.import.origin;
+  std::string csv = io::clearance_csv_header();
+  for (const DesignLine& line : lines) {
+    Progress part = progress.part(1.0 / static_cast<double>(lines.size()), "clearance " + line.name);
+    ClearanceResult clearance =
+        find_intrusions(scans, index, *state.design, line, state.stretch().from_m, state.stretch().to_m,
+                        options.least_range_m, options.most_range_m, part);
+    for (Intrusion& intrusion : clearance.intrusions) intrusion.deepest_site = origin.to_site(intrusion.deepest_site);
+    for (const ClearancePoint& point : clearance.list)
+      csv += io::clearance_csv_row(clearance, point, scans[point.scan].name,
+                                   origin.to_site(state.design->alignment().to_site(point.at)),
+                                   state.design->alignment().stations().displayed_m(point.at.s_m));
+    if (clearance.points > 0)
+      result.findings.push_back(intrusion_finding(clearance, clearance.list.size() == clearance.points));
+    clearance.list.clear();
+    result.clearances.push_back(std::move(clearance));
+  }
+  io::write_file_atomically(state.out / "clearance.csv", csv);
+}
+
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   const JobChainage stretch = state.stretch();
-  Progress mapping = progress.part(0.9, "mapping deviations");
+  Progress mapping = progress.part(0.7, "mapping deviations");
   MapResult mapped = map_deviations(placed_tiles(state), *state.design, stretch.from_m, stretch.to_m,
                                     state.job.options.profiling, mapping, state.memory_bytes / 4);
   state.map = std::move(mapped.map);
@@ -99,10 +149,14 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   Progress cutting = progress.part(0.1, "cutting sections");
   cut_sections(state, result);
   report_weak_coverage(result, *state.map, mapped.sparse_cells);
+  Progress clearing = progress.part(0.2, "checking the clearance");
+  check_clearances(state, result, clearing);
+  LeftFiles left{"steps/map.bin", "steps/profile.json"};
+  if (!result.clearances.empty()) left.emplace_back("clearance.csv");
   state.results.profile = std::move(result);
   io::write_deviation_map(state.out / "steps" / "map.bin", *state.map);
   io::write_file_atomically(step_file(state, "profile"), io::step_text(*state.results.profile));
-  return {"steps/map.bin", "steps/profile.json"};
+  return left;
 }
 
 void take_up(JobState& state, Progress&) {

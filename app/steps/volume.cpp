@@ -16,12 +16,20 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "volume 6|" + state.keys.at("profile");
+  std::string text = "volume 7|" + state.keys.at("profile");
   for (const JobRound& round : state.job.rounds)
     text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +
             "," + short_number(round.drilled_m);
   for (const Sector& sector : state.job.sectors)
     text += "|" + sector.name + "," + short_number(sector.from_deg) + "," + short_number(sector.to_deg);
+  for (const ReasonZone& zone : state.job.zones)
+    text += "|" + short_number(zone.from_m) + "," + short_number(zone.to_m) + "," + short_number(zone.from_deg) + "," +
+            short_number(zone.to_deg) + zone.reason + zone.note;
+  if (state.tolerances) {
+    const JobTolerances& wanted = *state.job.tolerances;
+    text += "|" + (wanted.file.empty() ? "library " + wanted.library : state.input_sha256.at(wanted.file));
+    for (const RockClassFrom& rock : wanted.rock_classes) text += "|" + short_number(rock.from_m) + rock.rock_class;
+  }
   return text + "|" + short_number(state.job.swell);
 }
 
@@ -69,11 +77,47 @@ void add_round(JobState& state, const JobRound& round, VolumeResult& result, Pro
   result.rounds.push_back(std::move(volume));
 }
 
+void add_zones(const JobState& state, VolumeResult& result) {
+  result.zones = zone_volumes(*state.map, *state.design, state.job.lines.front(), state.job.zones,
+                              state.job.options.profiling.gap_m);
+  for (std::size_t i = 0; i < result.zones.size(); ++i)
+    if (result.zones[i].zone.to_m <= result.zones[i].zone.from_m)
+      result.findings.push_back({Severity::warning, "zone " + std::to_string(i + 1),
+                                 "lies outside the profiled chainage and has no volume", "extend \"chainage\""});
+}
+
+Finding tolerance_finding(const ToleranceCheck& check, const DesignLine& line) {
+  std::string words = "rock class " + check.rock_class + ", against " + line.name + ": ";
+  if (check.broken()) {
+    char limits[200];
+    std::snprintf(
+        limits, sizeof limits,
+        "beyond its tolerance (overbreak mean %.3f, most %.3f m; underbreak most %.3f m, largest piece %.2f m2)",
+        check.mean_overbreak_m, check.max_overbreak_m, check.max_underbreak_m, check.max_underbreak_area_m2);
+    return {Severity::warning, "tolerance of " + check.sector, words + limits, "look at the map and at tolerances.csv"};
+  }
+  char seen[120];
+  std::snprintf(seen, sizeof seen, "nothing beyond its tolerance, but only %.0f %% of it was seen",
+                100.0 * check.coverage());
+  return {Severity::warning, "tolerance of " + check.sector, words + seen, "scan the rest"};
+}
+
+void add_tolerances(const JobState& state, VolumeResult& result) {
+  if (!state.tolerances) return;
+  const ToleranceSet& set = *state.tolerances;
+  result.tolerances = {set.name, set.source, set.verified_by,
+                       check_tolerances(*state.map, *state.design, state.job.lines.front(), state.job.sectors, set,
+                                        state.job.tolerances->rock_classes)};
+  for (const ToleranceCheck& check : result.tolerances.checks)
+    if (!check.kept()) result.findings.push_back(tolerance_finding(check, state.job.lines.front()));
+}
+
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   VolumeResult result;
   const DeviationMap& map = *state.map;
   const double share = 1.0 / static_cast<double>(state.job.lines.size() + state.job.rounds.size());
   for (const DesignLine& line : state.job.lines) {
+    if (line.clearance) continue;  // nothing is measured against it
     Progress part = progress.part(share, "volumes against " + line.name);
     result.lines.push_back(compute_volume(map, *state.design, line, map.from_m, map.to_m, state.stretch().interval_m,
                                           state.results.registration, state.job.options.profiling, part));
@@ -89,6 +133,8 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
     Progress part = progress.part(share, "round " + std::to_string(round.number));
     add_round(state, round, result, part);
   }
+  add_zones(state, result);
+  add_tolerances(state, result);
   state.results.volume = std::move(result);
   io::write_file_atomically(step_file(state, "volume"), io::step_text(*state.results.volume));
   return {"steps/volume.json"};

@@ -89,7 +89,8 @@ std::vector<ProfileFrom> turned(const std::vector<ProfileFrom>& profiles, const 
 void check_lines(const std::vector<DesignLine>& lines) {
   if (lines.empty()) throw Error("the design has no line");
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!std::isfinite(lines[i].offset_m)) throw Error("line " + lines[i].name + " has an offset that is not finite");
+    if (!std::isfinite(lines[i].offset_m) || !std::isfinite(lines[i].growth_per_m))
+      throw Error("line " + lines[i].name + " has an offset that is not finite");
     for (std::size_t j = 0; j < i; ++j) {
       if (lines[j].name == lines[i].name) throw Error("two lines of the design are named " + lines[i].name);
     }
@@ -105,6 +106,22 @@ DesignTunnel::DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profile
   check_lines(lines_);
   profiles_ = stepped(profiles_);
   if (turned_by_cant && !alignment_.cant().empty()) profiles_ = turned(profiles_, alignment_);
+}
+
+DesignTunnel DesignTunnel::driven(Drive drive) const {
+  DesignTunnel tunnel = *this;
+  tunnel.drive_ = std::move(drive);
+  return tunnel;
+}
+
+DesignLine DesignTunnel::line_at(const DesignLine& line, double chainage_m) const {
+  DesignLine here = line;
+  here.growth_per_m = 0.0;
+  if (line.growth_per_m == 0.0) return here;
+  for (const Drive::Round& round : drive_.rounds)
+    if (chainage_m >= round.from_m && chainage_m < round.to_m)
+      here.offset_m += line.growth_per_m * (drive_.up_chainage ? chainage_m - round.from_m : round.to_m - chainage_m);
+  return here;
 }
 
 const Profile& DesignTunnel::profile_at(double chainage_m) const {

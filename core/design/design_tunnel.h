@@ -13,7 +13,19 @@ namespace adit {
 struct DesignLine {
   std::string name = "excavation";
   double offset_m = 0.0;
+  double growth_per_m = 0.0;  ///< look-out envelope: the offset grows by this with every metre of a round
+  bool clearance = false;     ///< whatever lies inside it is listed
   bool operator==(const DesignLine&) const = default;
+};
+
+/// The rounds a tunnel is driven in, and whether chainage grows with them.
+struct Drive {
+  struct Round {
+    double from_m = 0.0;
+    double to_m = 0.0;
+  };
+  std::vector<Round> rounds;
+  bool up_chainage = true;
 };
 
 /// A profile and the chainage it holds from: up to the next one, or, interpolated, changing evenly into it.
@@ -36,6 +48,11 @@ class DesignTunnel {
   const Alignment& alignment() const { return alignment_; }
   const std::vector<ProfileFrom>& profiles() const { return profiles_; }
   const std::vector<DesignLine>& lines() const { return lines_; }
+  const Drive& drive() const { return drive_; }
+  /// The same design, driven in rounds: where lines with a growth begin to grow. Outside of rounds they do not.
+  DesignTunnel driven(Drive drive) const;
+  /// A line as it is at a chainage: its offset there, no growth.
+  DesignLine line_at(const DesignLine& line, double chainage_m) const;
   /// The profile that holds at a chainage; the first one also holds before its own.
   const Profile& profile_at(double chainage_m) const;
 
@@ -45,6 +62,7 @@ class DesignTunnel {
   Alignment alignment_;
   std::vector<ProfileFrom> profiles_;
   std::vector<DesignLine> lines_;
+  Drive drive_;
 };
 
 }  // namespace adit

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "core/design/design_tunnel.h"
+#include "core/design/tolerances.h"
 #include "core/geometry/pose.h"
 #include "core/job/import_options.h"
 #include "core/profiling/profiling.h"
+#include "core/profiling/reason_zones.h"
 #include "core/profiling/rings.h"
 #include "core/registration/registration.h"
 #include "core/surface/surface_options.h"
@@ -47,6 +49,13 @@ struct JobChainage {
   double from_m = 0.0;
   double to_m = 0.0;
   double interval_m = 1.0;
+};
+
+/// A set of tolerances, and which rock class holds where.
+struct JobTolerances {
+  std::string file;     ///< or ...
+  std::string library;  ///< ... a set of the library by its name
+  std::vector<RockClassFrom> rock_classes;
 };
 
 /// Rings measured by total station.
@@ -88,6 +97,9 @@ struct Job {
   std::vector<DesignLine> lines{{"excavation", 0.0}};
   std::optional<JobChainage> chainage;
   std::vector<JobRound> rounds;
+  bool driven_up_chainage = true;  ///< rounds, faces and look-out go up-chainage
+  std::vector<ReasonZone> zones;
+  std::optional<JobTolerances> tolerances;
   std::vector<Sector> sectors = standard_sectors();
   double swell = 0.0;  ///< loose over bank volume; 0: not stated
   std::optional<JobRings> rings;

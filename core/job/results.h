@@ -9,8 +9,11 @@
 
 #include "core/foundation/finding.h"
 #include "core/georeference/project_origin.h"
+#include "core/profiling/clearance.h"
 #include "core/profiling/profiling.h"
+#include "core/profiling/reason_zones.h"
 #include "core/profiling/rings.h"
+#include "core/profiling/tolerance_check.h"
 #include "core/registration/registration.h"
 #include "core/surface/mesh_summary.h"
 
@@ -48,12 +51,23 @@ struct ProfileResult {
   std::uint64_t points_inside = 0;
   std::uint64_t points_outside = 0;
   std::vector<Section> sections;
+  std::vector<ClearanceResult> clearances;  ///< one for each clearance line; without their lists of points
   Findings findings;
+};
+
+/// The map against a set of tolerances.
+struct ToleranceResult {
+  std::string set;
+  std::string source;
+  std::string verified_by;  ///< empty: nobody
+  std::vector<ToleranceCheck> checks;
 };
 
 struct VolumeResult {
   std::vector<Volume> lines;  ///< one for each design line, the first is the reference
   std::vector<RoundVolume> rounds;
+  std::vector<ZoneVolume> zones;  ///< against the reference line
+  ToleranceResult tolerances;     ///< set is empty where the job asks for none
   Findings findings;
 };
 

@@ -46,7 +46,13 @@ enum class CellKind : std::uint8_t {
   unseen = 0,  ///< nobody looked here; carries no value
   measured = 1,
   interpolated = 2,  ///< between measured cells closer than the gap limit; counted apart
+  opening = 3,       ///< no rock within reach, but points beyond it: a cross-cut or a deep niche; carries no value
 };
+
+/// True where a cell carries a deviation.
+inline bool has_rock(CellKind kind) {
+  return kind == CellKind::measured || kind == CellKind::interpolated;
+}
 
 struct MapCell {
   float deviation_m = std::numeric_limits<float>::quiet_NaN();  ///< from the profile itself (offset 0)

@@ -10,6 +10,7 @@
 #include "core/foundation/parallel.h"
 #include "core/geometry/statistics.h"
 #include "core/profiling/object_cells.h"
+#include "core/profiling/openings.h"
 #include "core/profiling/outline.h"
 #include "core/profiling/profiling.h"
 
@@ -28,6 +29,7 @@ struct Entry {
 
 struct TileEntries {
   std::vector<Entry> entries;
+  std::vector<std::uint32_t> beyond;  ///< cells of the points that were left out as outside
   std::uint64_t inside = 0;
   std::uint64_t outside = 0;
 };
@@ -65,11 +67,14 @@ struct Mapper {
       const ProfileFoot foot = design.profiles()[profile].profile.nearest({at.x_m, at.z_m});
       if (foot.deviation_m < -options.reach_in_m) {
         ++result.inside;
-      } else if (foot.deviation_m > options.reach_out_m) {
+        return;
+      }
+      const auto column = static_cast<std::size_t>(stretches[profile].q_of(foot) / map.step_q_m);
+      const std::size_t cell = (row - first_row) * map.columns + std::min(column, map.columns - 1);
+      if (foot.deviation_m > options.reach_out_m) {
         ++result.outside;
+        result.beyond.push_back(static_cast<std::uint32_t>(cell));
       } else {
-        const auto column = static_cast<std::size_t>(stretches[profile].q_of(foot) / map.step_q_m);
-        const std::size_t cell = (row - first_row) * map.columns + std::min(column, map.columns - 1);
         const double place = (at.s_m - map.from_m) / map.step_s_m - static_cast<double>(row);
         result.entries.push_back({static_cast<std::uint32_t>(cell), static_cast<float>(foot.deviation_m),
                                   static_cast<float>(place), incidence(scanners[ref.scan], at, foot.direction, range)});
@@ -209,6 +214,14 @@ std::uint64_t fill_slab(DeviationMap& map, std::vector<Entry>& entries, std::siz
   return sparse;
 }
 
+/// Marks cells without rock that a point beyond reach was seen through.
+void mark_openings(DeviationMap& map, const TileEntries& part, std::size_t first_row) {
+  for (const std::uint32_t i : part.beyond) {
+    MapCell& cell = map.cells[first_row * map.columns + i];
+    if (cell.kind == CellKind::unseen) cell.kind = CellKind::opening;
+  }
+}
+
 DeviationMap empty_map(const std::vector<ProfileStretch>& stretches, double from_m, double to_m,
                        const ProfilingOptions& options) {
   DeviationMap map;
@@ -299,6 +312,7 @@ void map_slab(MapResult& result, const Mapper& mapper, const ChainageIndex& inde
   }
   result.points_used += entries.size();
   result.sparse_cells += fill_slab(result.map, entries, first, mapper.options);
+  for (const TileEntries& part : parts) mark_openings(result.map, part, first);
 }
 
 Finding objects_finding(const ObjectCells& objects, double cell_area_m2) {
@@ -309,6 +323,15 @@ Finding objects_finding(const ObjectCells& objects, double cell_area_m2) {
                 "not as underbreak",
                 area_m2, objects.from_m, objects.to_m);
   return {area_m2 < 1.0 ? Severity::note : Severity::warning, "deviation map", words, "look at the sections there"};
+}
+
+Finding opening_finding(const Opening& opening, double reach_out_m) {
+  char words[260];
+  std::snprintf(words, sizeof words,
+                "an opening of %.1f m2 between chainage %.2f and %.2f, at %.0f degrees clockwise from the crown, goes "
+                "deeper than %.1f m: areas and volumes end at the line there",
+                opening.area_m2, opening.from_m, opening.to_m, opening.clock_deg, reach_out_m);
+  return {Severity::warning, "deviation map", words, "measure a cross-cut as a job of its own"};
 }
 
 }  // namespace
@@ -343,6 +366,8 @@ MapResult map_deviations(const std::vector<PlacedTiles>& scans, const ChainageIn
                     std::to_string(to_m),
                 "", "check the alignment, the profile and the poses: do they use the same coordinates?");
   const ObjectCells objects = remove_object_cells(result.map);
+  for (const Opening& opening : find_openings(result.map, mapper.stretches, mapper.profile_of_row))
+    result.findings.push_back(opening_finding(opening, options.reach_out_m));
   fill_map_gaps(result.map, mapper, options.gap_m);
   if (objects.cells > 0) result.findings.push_back(objects_finding(objects, result.map.step_s_m * result.map.step_q_m));
   return result;

@@ -53,6 +53,9 @@ void fill_gaps(Row& row, double gap_m) {
     if (count == 0) continue;
     double length = 0.0;
     for (std::size_t k = 1; k <= count; ++k) length += row.line_m((before + k) % n);
+    std::size_t open = 0;
+    for (std::size_t k = 1; k <= count; ++k) open += row.cells[(before + k) % n].kind == CellKind::opening ? 1 : 0;
+    if (2 * open >= count) continue;
     // Around a corner the line has no length, and far outside it the rock has: both must be bridged.
     const double across = (row.position(after) - row.position(before)).norm() - row.step_m;
     if (std::max(length, across) <= gap_m + 1e-9) fill_gap(row, before, count);
@@ -77,17 +80,17 @@ Outline outline_of(const std::vector<MapCell>& cells, const ProfileStretch& stre
     if (row.cells[c].kind == CellKind::measured) outline.measured_m += length;
     if (row.cells[c].kind == CellKind::interpolated) outline.interpolated_m += length;
     if (row.cells[c].kind == CellKind::unseen) outline.unseen_m += length;
+    if (row.cells[c].kind == CellKind::opening) outline.opening_m += length;
   }
   for (std::size_t c = 0; c < n; ++c) {
     const std::size_t next = (c + 1) % n;
     const MapCell& here = row.cells[c];
     const MapCell& there = row.cells[next];
-    const bool unseen = here.kind == CellKind::unseen;
-    const double d0 = unseen ? 0.0 : static_cast<double>(here.deviation_m);
+    const bool rock = has_rock(here.kind);
+    const double d0 = rock ? static_cast<double>(here.deviation_m) : 0.0;
     outline.points.push_back(outline_point(stretch.at(row.centre_q(c)), d0, here.kind));
-    const bool both_unseen = unseen && there.kind == CellKind::unseen;
-    if (!both_unseen && (unseen || there.kind == CellKind::unseen)) continue;
-    const double d1 = both_unseen ? 0.0 : static_cast<double>(there.deviation_m);
+    if (rock != has_rock(there.kind)) continue;
+    const double d1 = rock ? static_cast<double>(there.deviation_m) : 0.0;
     const double span =
         next > c ? row.centre_q(next) - row.centre_q(c) : row.centre_q(next) + stretch.length_m() - row.centre_q(c);
     const auto pieces = static_cast<std::size_t>(std::ceil(span / point_spacing_m));
@@ -106,7 +109,7 @@ Polygon polygon_of(const std::vector<OutlinePoint>& points, double line_offset_m
   Polygon polygon;
   polygon.reserve(points.size());
   for (const OutlinePoint& point : points) {
-    const double shift = point.kind == CellKind::unseen ? line_offset_m : 0.0;
+    const double shift = has_rock(point.kind) ? 0.0 : line_offset_m;
     polygon.push_back(point.position + shift * point.normal);
   }
   return polygon;

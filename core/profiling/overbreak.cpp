@@ -65,7 +65,7 @@ SectionAreas section_areas(const Outline& outline, const ProfileStretch& stretch
       areas.max_underbreak_p_m = stretch.at(q).p_m;
     }
   }
-  const double whole = outline.measured_m + outline.interpolated_m + outline.unseen_m;
+  const double whole = std::max(1e-12, outline.measured_m + outline.interpolated_m + outline.unseen_m);
   areas.coverage = outline.measured_m / whole;
   areas.interpolated = outline.interpolated_m / whole;
   return areas;

@@ -50,7 +50,7 @@ struct MapResult {
   DeviationMap map;
   std::uint64_t points_used = 0;
   std::uint64_t points_inside = 0;   ///< left out: farther inside the line than reach_in_m
-  std::uint64_t points_outside = 0;  ///< left out: farther outside than reach_out_m
+  std::uint64_t points_outside = 0;  ///< left out: farther outside than reach_out_m; many make a cell an opening
   std::uint64_t sparse_cells = 0;    ///< left out: cells with fewer points than least_points
   Findings findings;
 };

@@ -91,13 +91,14 @@ RoundReview review_round(const DeviationMap& map, const DesignTunnel& design, co
     const std::vector<MapCell> row(map.cells.begin() + static_cast<std::ptrdiff_t>(r * map.columns),
                                    map.cells.begin() + static_cast<std::ptrdiff_t>((r + 1) * map.columns));
     const Outline outline = outline_of(row, stretch, map.step_q_m, gap_m);
+    const DesignLine here = design.line_at(line, chainage);
     double sum = 0.0;
     std::size_t seen = 0;
     std::vector<std::pair<double, std::size_t>> of_block(static_cast<std::size_t>(profile.length_m() / block_m) + 1);
     for (std::size_t c = 0; c < outline.cells.size(); ++c) {
       const double q = std::min((static_cast<double>(c) + 0.5) * map.step_q_m, stretch.length_m());
       if (outline.cells[c].kind != CellKind::measured || stretch.at(q).normal.y() < downwards) continue;
-      const double over = static_cast<double>(outline.cells[c].deviation_m) - line.offset_m;
+      const double over = static_cast<double>(outline.cells[c].deviation_m) - here.offset_m;
       sum += over;
       ++seen;
       auto& [block_sum, block_seen] =
@@ -117,8 +118,8 @@ RoundReview review_round(const DeviationMap& map, const DesignTunnel& design, co
     }
     regression.s.push_back(chainage);
     regression.d.push_back(sum / static_cast<double>(seen));
-    ratios.push_back(contour_ratio(outline, line.offset_m));
-    over_areas.push_back(slice_amounts(outline.points, line_polygon(profile, line)).over.area_m2);
+    ratios.push_back(contour_ratio(outline, here.offset_m));
+    over_areas.push_back(slice_amounts(outline.points, line_polygon(profile, here)).over.area_m2);
   }
   RoundReview review;
   const auto fit = regression.line();

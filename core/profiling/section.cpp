@@ -32,6 +32,20 @@ std::vector<MapCell> cells_at(const DeviationMap& map, double chainage_m) {
   return cells;
 }
 
+/// Runs of open points, clockwise; the outline is closed.
+std::vector<LineOpening> openings_of(const std::vector<OutlinePoint>& points) {
+  const std::size_t n = points.size();
+  const auto open = [&](std::size_t i) { return points[i % n].kind == CellKind::opening; };
+  std::vector<LineOpening> openings;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!open(i) || open(i + n - 1)) continue;
+    std::size_t end = i;
+    while (end + 1 < i + n && open(end + 1)) ++end;
+    openings.push_back({points[i].p_m, points[end % n].p_m});
+  }
+  return openings;
+}
+
 }  // namespace
 
 Section cut_section(const DeviationMap& map, const DesignTunnel& design, double chainage_m,
@@ -44,7 +58,10 @@ Section cut_section(const DeviationMap& map, const DesignTunnel& design, double 
   const ProfileStretch stretch(profile);
   Outline outline = outline_of(cells_at(map, chainage_m), stretch, map.step_q_m, options.gap_m);
   for (const DesignLine& line : design.lines())
-    section.lines.push_back(section_areas(outline, stretch, map.step_q_m, line_polygon(profile, line)));
+    if (!line.clearance)
+      section.lines.push_back(
+          section_areas(outline, stretch, map.step_q_m, line_polygon(profile, design.line_at(line, chainage_m))));
+  section.openings = openings_of(outline.points);
   section.outline = std::move(outline.points);
   return section;
 }

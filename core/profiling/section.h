@@ -22,7 +22,7 @@ struct OutlinePoint {
 /// What an outline says about one design line. Numbers never stand without their line and coverage.
 struct SectionAreas {
   std::string line;
-  double line_offset_m = 0.0;
+  double line_offset_m = 0.0;  ///< at this chainage
   double design_area_m2 = 0.0;
   double area_m2 = 0.0;  ///< inside the as-built outline; where nothing was seen it follows the line
   double overbreak_m2 = 0.0;
@@ -31,8 +31,15 @@ struct SectionAreas {
   double max_overbreak_p_m = 0.0;  ///< where along the line
   double max_underbreak_m = 0.0;
   double max_underbreak_p_m = 0.0;
-  double coverage = 0.0;      ///< share of the line that was measured
+  double coverage = 0.0;      ///< share of the line that was measured, openings left out
   double interpolated = 0.0;  ///< share of the line interpolated over gaps
+};
+
+/// A piece of the line without rock within reach, from p to p, clockwise: a cross-cut, a deep niche. Never closed by a
+/// guess: areas there end at the line.
+struct LineOpening {
+  double p_from_m = 0.0;
+  double p_to_m = 0.0;
 };
 
 struct Section {
@@ -40,7 +47,8 @@ struct Section {
   double station_m = 0.0;                               ///< displayed
   Eigen::Vector3d axis_site = Eigen::Vector3d::Zero();  ///< east, north, elevation of the axis
   std::vector<OutlinePoint> outline;                    ///< closed, clockwise looking up-chainage
-  std::vector<SectionAreas> lines;                      ///< one for each design line, the first is the reference
+  std::vector<SectionAreas> lines;  ///< one for each design line but clearance lines, the first is the reference
+  std::vector<LineOpening> openings;
 };
 
 }  // namespace adit

@@ -23,13 +23,6 @@ bool holds(const Sector& sector, double clock) {
   return clock >= sector.from_deg || clock < sector.to_deg;
 }
 
-std::size_t sector_of(const std::vector<Sector>& sectors, const Eigen::Vector2d& normal) {
-  const double clock = clock_deg(normal);
-  for (std::size_t i = 0; i < sectors.size(); ++i)
-    if (holds(sectors[i], clock)) return i;
-  return sectors.size() - 1;  // straight down, in a sector that ends there
-}
-
 /// An outline point against a line: where the line is, and how far outside it the rock.
 struct Ray {
   Eigen::Vector2d base, normal;
@@ -39,7 +32,7 @@ struct Ray {
 };
 
 Ray ray_of(const OutlinePoint& point, double offset_m) {
-  const bool unseen = point.kind == CellKind::unseen;
+  const bool unseen = !has_rock(point.kind);
   const Eigen::Vector2d base = point.position - (point.deviation_m - (unseen ? 0.0 : offset_m)) * point.normal;
   return {unseen ? Eigen::Vector2d(point.position + offset_m * point.normal) : base, point.normal,
           unseen ? 0.0 : point.deviation_m - offset_m, point.kind == CellKind::measured};
@@ -78,8 +71,9 @@ std::vector<SectorVolume> of_row(const DeviationMap& map, std::size_t r, const D
   const Outline outline = outline_of(row, ProfileStretch(design.profile_at(chainage)), map.step_q_m, gap_m);
   const Slice slice{thickness_m, design.alignment().horizontal().at(chainage).curvature_per_m};
   const std::size_t n = outline.points.size();
+  const double offset_m = design.line_at(line, chainage).offset_m;
   for (std::size_t i = 0; i < n; ++i) {
-    const Ray a = ray_of(outline.points[i], line.offset_m), b = ray_of(outline.points[(i + 1) % n], line.offset_m);
+    const Ray a = ray_of(outline.points[i], offset_m), b = ray_of(outline.points[(i + 1) % n], offset_m);
     SectorVolume& sector = amounts[sector_of(sectors, (a.normal + b.normal).normalized())];
     const double surface_m2 = thickness_m * (b.base - a.base).norm();
     sector.surface_m2 += surface_m2;
@@ -114,6 +108,13 @@ struct Sums {
 };
 
 }  // namespace
+
+std::size_t sector_of(const std::vector<Sector>& sectors, const Eigen::Vector2d& normal) {
+  const double clock = clock_deg(normal);
+  for (std::size_t i = 0; i < sectors.size(); ++i)
+    if (holds(sectors[i], clock)) return i;
+  return sectors.size() - 1;  // straight down, in a sector that ends there
+}
 
 std::vector<Sector> standard_sectors() {
   return {{"crown", -30.0, 30.0},    {"right shoulder", 30.0, 70.0}, {"right wall", 70.0, 135.0},

@@ -24,6 +24,9 @@ std::vector<Sector> standard_sectors();
 /// Throws Error when sectors leave gaps, overlap, have no name or two have one.
 void check_sectors(const std::vector<Sector>& sectors);
 
+/// Index of the sector that holds an outward normal.
+std::size_t sector_of(const std::vector<Sector>& sectors, const Eigen::Vector2d& normal);
+
 /// What of a stretch lies in one sector, against one line.
 struct SectorVolume {
   std::string name;

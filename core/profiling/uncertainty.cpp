@@ -28,6 +28,7 @@ bool belongs(VolumePart part, double over_m) {
 
 void add_cell(Sums& sums, const MapCell& cell, const ProfilePoint& at, double area_m2, double offset_m,
               VolumePart part) {
+  if (cell.kind == CellKind::opening) return;  // ends at the line by definition
   if (cell.kind == CellKind::unseen) {
     sums.unseen_m2 += area_m2;
     return;
@@ -83,15 +84,16 @@ double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, cons
     const std::vector<MapCell> row(map.cells.begin() + static_cast<std::ptrdiff_t>(r * map.columns),
                                    map.cells.begin() + static_cast<std::ptrdiff_t>((r + 1) * map.columns));
     const Outline outline = outline_of(row, stretch, map.step_q_m, options.gap_m);
+    const double offset_m = design.line_at(line, chainage).offset_m;
     double amount = 0.0;
     for (std::size_t c = 0; c < outline.cells.size(); ++c) {
       const double q0 = static_cast<double>(c) * map.step_q_m;
       const double q1 = std::min(q0 + map.step_q_m, stretch.length_m());
       const double length = stretch.line_length_m(q0, q1);
       const MapCell& cell = outline.cells[c];
-      add_cell(sums, cell, stretch.at(0.5 * (q0 + q1)), length * map.step_s_m, line.offset_m, part);
-      if (cell.kind == CellKind::unseen) continue;
-      const double over = static_cast<double>(cell.deviation_m) - line.offset_m;
+      add_cell(sums, cell, stretch.at(0.5 * (q0 + q1)), length * map.step_s_m, offset_m, part);
+      if (!has_rock(cell.kind)) continue;
+      const double over = static_cast<double>(cell.deviation_m) - offset_m;
       if (belongs(part, over)) amount += length * std::abs(over);
     }
     row_amount_m2.push_back(amount);

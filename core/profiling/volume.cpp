@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/foundation/parallel.h"
 #include "core/profiling/outline.h"
@@ -24,6 +25,7 @@ struct SliceSums {
   double measured_m2 = 0.0;
   double interpolated_m2 = 0.0;
   double unseen_m2 = 0.0;
+  double opening_m2 = 0.0;
 
   SliceSums& operator+=(const SliceSums& other) {
     amounts.design_m3 += other.amounts.design_m3;
@@ -33,6 +35,7 @@ struct SliceSums {
     measured_m2 += other.measured_m2;
     interpolated_m2 += other.interpolated_m2;
     unseen_m2 += other.unseen_m2;
+    opening_m2 += other.opening_m2;
     return *this;
   }
 };
@@ -80,11 +83,16 @@ SliceSums slice_sums(const DeviationMap& map, std::size_t r, const DesignTunnel&
                                  map.cells.begin() + static_cast<std::ptrdiff_t>((r + 1) * map.columns));
   const Outline outline = outline_of(row, line.stretch, map.step_q_m, options.gap_m);
   const double k = design.alignment().horizontal().at(chainage).curvature_per_m;
+  std::optional<LinePolygon> grown;
   // One rock for the whole slice, and each of the profiles that hold in it for its own part.
   const std::vector<double> bounds = parts_of(design, begin, end);
   for (std::size_t part = 0; part + 1 < bounds.size(); ++part) {
     const double length_m = bounds[part + 1] - bounds[part];
-    const LinePolygon& there = line_at(lines, design, 0.5 * (bounds[part] + bounds[part + 1])).line;
+    const double middle_m = 0.5 * (bounds[part] + bounds[part + 1]);
+    const LineOfProfile& prepared = line_at(lines, design, middle_m);
+    const DesignLine& wanted = prepared.line.line;
+    if (wanted.growth_per_m != 0.0) grown = line_polygon(*prepared.profile, design.line_at(wanted, middle_m));
+    const LinePolygon& there = grown ? *grown : prepared.line;
     const SliceAmounts amounts = slice_amounts(outline.points, there);
     const auto volume = [&](const AreaMoment& a) { return length_m * (a.area_m2 - k * a.moment_m3); };
     add_weighted(sums.amounts, 1.0,
@@ -93,6 +101,7 @@ SliceSums slice_sums(const DeviationMap& map, std::size_t r, const DesignTunnel&
   sums.measured_m2 = ds * outline.measured_m;
   sums.interpolated_m2 = ds * outline.interpolated_m;
   sums.unseen_m2 = ds * outline.unseen_m;
+  sums.opening_m2 = ds * outline.opening_m;
   return sums;
 }
 
@@ -133,6 +142,7 @@ Volume compute_volume(const DeviationMap& map, const DesignTunnel& design, const
   Volume volume;
   volume.line = line.name;
   volume.line_offset_m = line.offset_m;
+  volume.line_growth_per_m = line.growth_per_m;
   volume.from_m = from_m;
   volume.to_m = to_m;
   const std::vector<LineOfProfile> lines = lines_of(design, line);
@@ -146,6 +156,7 @@ Volume compute_volume(const DeviationMap& map, const DesignTunnel& design, const
   volume.measured_m2 = sums.measured_m2;
   volume.interpolated_m2 = sums.interpolated_m2;
   volume.unseen_m2 = sums.unseen_m2;
+  volume.opening_m2 = sums.opening_m2;
   volume.coverage = sums.measured_m2 / std::max(1e-12, sums.measured_m2 + sums.interpolated_m2 + sums.unseen_m2);
   volume.closure_m3 = (volume.slices.excavated_m3 - volume.slices.design_m3) -
                       (volume.slices.overbreak_m3 - volume.slices.underbreak_m3);

@@ -25,6 +25,7 @@ struct VolumeAmounts {
 struct Volume {
   std::string line;
   double line_offset_m = 0.0;
+  double line_growth_per_m = 0.0;
   double from_m = 0.0;
   double to_m = 0.0;
   VolumeAmounts slices;            ///< thin slices with plan curvature: the number to use
@@ -33,10 +34,11 @@ struct Volume {
   double sigma_excavated_m3 = 0.0;
   double sigma_overbreak_m3 = 0.0;
   double sigma_underbreak_m3 = 0.0;
-  double coverage = 0.0;  ///< measured share of the surface
+  double coverage = 0.0;  ///< measured share of the surface, openings left out
   double measured_m2 = 0.0;
   double interpolated_m2 = 0.0;
   double unseen_m2 = 0.0;
+  double opening_m2 = 0.0;  ///< cross-cuts and deep niches, cut off at the line
   double closure_m3 = 0.0;  ///< (excavated - design) - (over - under): zero but for rounding
   std::vector<SectorVolume> sectors;
 };

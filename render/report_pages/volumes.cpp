@@ -20,7 +20,10 @@ std::vector<TableCell> method_row(const std::string& line, const std::string& me
 }
 
 std::string line_name(const Volume& v) {
-  return v.line + (v.line_offset_m != 0.0 ? " (" + with_sign(v.line_offset_m, 2) + " m)" : "");
+  std::string place = v.line_offset_m != 0.0 ? with_sign(v.line_offset_m, 2) + " m" : std::string();
+  if (v.line_growth_per_m != 0.0)
+    place += (place.empty() ? "" : ", ") + with_sign(100.0 * v.line_growth_per_m, 1) + " cm a metre of round";
+  return v.line + (place.empty() ? "" : " (" + place + ")");
 }
 
 void add_methods(PageFlow& flow, const std::vector<Volume>& lines) {
@@ -50,15 +53,16 @@ void add_methods(PageFlow& flow, const std::vector<Volume>& lines) {
 
 void add_quality(PageFlow& flow, const std::vector<Volume>& lines) {
   flow.subheading("How well they are known");
-  Table table{{{"line", 34, false},
+  Table table{{{"line", 28, false},
                {"excavated \u00b12\u03c3 m\u00b3", 21, true},
                {"over \u00b12\u03c3 m\u00b3", 19, true},
                {"under \u00b12\u03c3 m\u00b3", 19, true},
                {"measured", 17, true},
                {"measured m\u00b2", 19, true},
                {"interpolated m\u00b2", 20, true},
-               {"not seen m\u00b2", 17, true},
-               {"closure m\u00b3", 20, true}},
+               {"not seen m\u00b2", 16, true},
+               {"open m\u00b2", 15, true},
+               {"closure m\u00b3", 18, true}},
               {},
               2.4};
   for (const Volume& v : lines)
@@ -66,7 +70,7 @@ void add_quality(PageFlow& flow, const std::vector<Volume>& lines) {
         {line_name(v), fixed(2.0 * v.sigma_excavated_m3, 1), fixed(2.0 * v.sigma_overbreak_m3, 1),
          fixed(2.0 * v.sigma_underbreak_m3, 1),
          TableCell(percent(v.coverage, 1), v.coverage < 0.8 ? colours::red : colours::black), fixed(v.measured_m2, 1),
-         fixed(v.interpolated_m2, 1), fixed(v.unseen_m2, 1),
+         fixed(v.interpolated_m2, 1), fixed(v.unseen_m2, 1), fixed(v.opening_m2, 1),
          TableCell(fixed(v.closure_m3, 6), std::abs(v.closure_m3) > 0.001 ? colours::red : colours::black)});
   flow.table(table);
   flow.paragraph("Closure: (excavated \u2212 design) \u2212 (over \u2212 under), zero but for rounding.", colours::grey,

@@ -7,36 +7,16 @@
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "core/profiling/profiling.h"
+#include "tests/core/sample_map.h"
 #include "tests/core/sample_tunnel.h"
 
 namespace adit {
 namespace {
 
-/// A measured map at deviation d(row, column centre) of a circle about the axis.
-template <typename Deviation>
-DeviationMap map_of(const DesignTunnel& design, const Deviation& deviation) {
-  DeviationMap map;
-  map.from_m = 20;
-  map.to_m = 28;
-  map.rows = 80;
-  const ProfileStretch stretch(design.profile_at(24));
-  map.columns = stretch.columns(map.step_q_m);
-  map.cells.resize(map.rows * map.columns);
-  for (std::size_t r = 0; r < map.rows; ++r)
-    for (std::size_t c = 0; c < map.columns; ++c) {
-      const double q = std::min((static_cast<double>(c) + 0.5) * map.step_q_m, stretch.length_m());
-      MapCell& cell = map.cell(r, c);
-      cell.kind = CellKind::measured;
-      cell.count = 9;
-      cell.deviation_m = static_cast<float>(deviation(map.row_chainage(r), stretch.at(q)));
-    }
-  return map;
-}
-
 TEST(Sectors, AShellOfACircleFallsToItsSectorsByTheirAngles) {
   const double d = 0.2, radius = 4.0;
   const DesignTunnel design = tests::sample_design(tests::circle_profile(radius));
-  const DeviationMap map = map_of(design, [&](double, const ProfilePoint&) { return d; });
+  const DeviationMap map = tests::map_of(design, [&](double, const ProfilePoint&) { return d; });
   const auto sectors = sector_volumes(map, design, {"line", 0.0}, standard_sectors(), 20, 28, 1.0);
   ASSERT_EQ(sectors.size(), 6U);
   const double whole = pi * ((radius + d) * (radius + d) - radius * radius) * 8.0;
@@ -52,7 +32,7 @@ TEST(Sectors, AShellOfACircleFallsToItsSectorsByTheirAngles) {
 
 TEST(Sectors, TheySumToTheSlicesOnACurveWithOverAndUnderMixed) {
   const DesignTunnel design = tests::sample_design(tests::arch_profile(), 60.0);
-  const DeviationMap map = map_of(design, [](double s, const ProfilePoint& at) {
+  const DeviationMap map = tests::map_of(design, [](double s, const ProfilePoint& at) {
     return 0.1 * std::sin(3.0 * at.p_m) + 0.08 * std::sin(2.0 * s) + 0.03;
   });
   Progress progress;
@@ -83,14 +63,14 @@ TEST(RoundReview, ALookOutIsFoundAndARoughContourDoesNotPromiseTooMuch) {
   const auto tooth = [](double s, const ProfilePoint& at) {
     return at.normal.y() < -0.5 ? -0.05 : 0.06 + 0.08 * (s - 20.0);
   };
-  const RoundReview smooth = review_round(map_of(design, tooth), design, {"line", 0.0}, 20, 28, 1.0);
+  const RoundReview smooth = review_round(tests::map_of(design, tooth), design, {"line", 0.0}, 20, 28, 1.0);
   EXPECT_NEAR(smooth.lookout_per_m, 0.08, 1e-4);
   EXPECT_NEAR(smooth.lookout_collar_m, 0.06, 1e-3);
   EXPECT_NEAR(smooth.lookout_toe_m, 0.70, 1e-3);
   EXPECT_NEAR(smooth.lookout_sigma_per_m, 0.0, 1e-4);
   EXPECT_NEAR(smooth.affected_share, 1.0, 1e-12);
   EXPECT_NEAR(smooth.mean_overbreak_m, 0.38, 1e-3);
-  const DeviationMap rough = map_of(
+  const DeviationMap rough = tests::map_of(
       design, [&](double s, const ProfilePoint& at) { return tooth(s, at) + 0.05 * std::sin(0.6 * s + 2.0 * at.p_m); });
   const RoundReview review = review_round(rough, design, {"line", 0.0}, 20, 28, 1.0);
   EXPECT_NEAR(review.lookout_per_m, 0.08, 2.0 * review.lookout_sigma_per_m);
@@ -105,7 +85,7 @@ TEST(VolumeOfProfiles, AChangeInsideASliceCountsEachProfileForItsPart) {
   const Alignment axis = tests::sample_axis();
   const DesignTunnel design(axis, {{0.0, tests::circle_profile(4.0)}, {23.47, tests::circle_profile(5.0)}},
                             {{"line", 0.0}});
-  const DeviationMap map = map_of(design, [](double, const ProfilePoint&) { return 0.0; });
+  const DeviationMap map = tests::map_of(design, [](double, const ProfilePoint&) { return 0.0; });
   Progress progress;
   for (const double slice_m : {0.1, 1.0}) {
     DeviationMap sliced = map;

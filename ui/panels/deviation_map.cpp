@@ -46,6 +46,7 @@ std::string words_of(const DeviationMap& map, double chainage_m, double share_ac
                                  index(share_across * static_cast<double>(map.columns), map.columns));
   std::string words = "chainage " + render::fixed(chainage_m, 2) + "\n";
   if (cell.kind == CellKind::unseen) return words + "not seen";
+  if (cell.kind == CellKind::opening) return words + "open: no rock within reach";
   words += "deviation " + render::with_sign(static_cast<double>(cell.deviation_m), 3) + " m";
   return cell.kind == CellKind::interpolated ? words + ", interpolated" : words;
 }
