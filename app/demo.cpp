@@ -87,8 +87,8 @@ struct Demo {
 
 Demo plan_demo(const DemoOptions& options) {
   const double last_station = first_station_m + station_spacing_m * (options.stations - 1);
-  const double face = last_station + 20.0;
-  Alignment axis = demo_axis(options, face + 80.0 - axis_start_m);
+  const double face = last_station + 20.0 - round_length_m * options.rounds_back;
+  Alignment axis = demo_axis(options, last_station + 100.0 - axis_start_m);
   const Eigen::Vector3d origin = Eigen::Vector3d(options.east_m, options.north_m, options.elevation_m).array().round();
   RockTunnelOptions rock;
   rock.seed = options.seed;
@@ -259,6 +259,11 @@ Job demo_job(const Demo& demo, const std::vector<Pose>& poses) {
   int number = 100;
   for (double s = first_round_m; s + round_length_m <= demo.stretch.to_m; s += round_length_m, ++number)
     if (s >= demo.stretch.from_m) job.rounds.push_back({number, s, s + round_length_m, round_length_m + 0.2});
+  if (demo.options.before.empty()) return job;
+  job.before = JobBefore{demo.options.before, {}, {}};
+  job.face = true;
+  const double face_m = demo.tunnel.options().face_m;
+  job.rounds.push_back({number, face_m - round_length_m, face_m, round_length_m + 0.2});
   return job;
 }
 

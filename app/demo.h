@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "core/foundation/progress.h"
 
@@ -18,6 +19,8 @@ struct DemoOptions {
   double north_m = 6998765.0;
   double elevation_m = 412.0;
   bool control = true;  ///< write control.csv and targets.csv
+  int rounds_back = 0;  ///< the face stands so many rounds (of 4 m) back
+  std::string before;   ///< folder of an earlier demo of the same seed, as the job names it; empty: none
 };
 
 /// Writes scans/, axis.xml, profile.dxf, control.csv, targets.csv, truth.json and job.json into the folder (made when

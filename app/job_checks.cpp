@@ -159,10 +159,11 @@ void check_design(const JobState& state) {
   if (job.alignment_start_m && !state.alignment)
     throw Error("\"alignment_start\" without \"alignment\"", file, "name the alignment file, too");
   const bool for_volumes = job.turned_by_cant || job.swell > 0.0 || job.sectors != standard_sectors() ||
-                           !job.zones.empty() || job.tolerances;
+                           !job.zones.empty() || job.tolerances || job.before || job.face || job.straightedge;
   if (for_volumes && !state.has_design())
-    throw Error("\"cant\", \"swell\", \"sectors\", \"zones\" or \"tolerances\" without \"alignment\" and \"profile\"",
-                file, "name both files, too");
+    throw Error(
+        "\"cant\", \"swell\", \"sectors\", \"zones\", \"tolerances\", \"before\", \"face\" or \"straightedge\" without \"alignment\" and \"profile\"",
+        file, "name both files, too");
   if (job.swell > 0.0 && job.rounds.empty())
     throw Error("\"swell\" without \"rounds\"", file, "it is used for the loose volume of rounds");
   for (std::size_t i = 0; i < job.lines.size(); ++i)

@@ -14,6 +14,7 @@
 #include "io/read_rings.h"
 #include "io/sha256.h"
 #include "io/targets_csv.h"
+#include "io/text_file.h"
 #include "io/tolerances_json.h"
 #include "io/truth_json.h"
 
@@ -46,8 +47,9 @@ void expect_inputs_apart(const JobState& state, const std::vector<std::string>& 
     const auto refuse = [&] {
       throw Error("a run would write over this input", input.string(), "move it, or choose another folder with --out");
     };
-    for (const char* name : {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "sectors.csv", "rings.csv",
-                             "clearance.csv", "zones.csv", "tolerances.csv", "results.json", "report.pdf", ".lock"})
+    for (const char* name :
+         {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "sectors.csv", "rings.csv", "clearance.csv",
+          "zones.csv", "face.csv", "layer.csv", "tolerances.csv", "results.json", "report.pdf", ".lock"})
       if (real(state.out / name) == input) refuse();
     for (const char* name : {"import", "steps", "report", "figures"}) {
       const fs::path below = input.lexically_relative(real(state.out / name));
@@ -121,7 +123,34 @@ void read_tolerances(JobState& state) {
                                     "compare it with the contract and write \"verified_by\" into the file"});
 }
 
+/// The earlier job must have been run; whether it still holds is seen when it is taken up.
+void look_at_before(JobState& state) {
+  if (!state.job.before) return;
+  const fs::path file = before_file(state);
+  std::error_code ignored;
+  if (fs::equivalent(file, state.file, ignored))
+    throw Error("a job cannot be compared with itself", state.file.string() + ": before", "name the earlier job");
+  const auto real = [&](const fs::path& path) { return fs::weakly_canonical(fs::absolute(path, ignored), ignored); };
+  if (real(before_out(state)) == real(state.out))
+    throw Error("the earlier job's results and this job's would lie in one folder", real(state.out).string(),
+                "give one of them another with --out, and name the earlier one's in before.out");
+  const fs::path key = before_out(state) / "steps" / "register.key";
+  if (!fs::exists(key, ignored))
+    throw Error("the earlier job has not been run", file.string(), "run it first: adit register " + file.string());
+  state.before_key = io::read_text_file(key);
+}
+
 }  // namespace
+
+std::filesystem::path before_file(const JobState& state) {
+  const fs::path file = state.folder / state.job.before->job;
+  return fs::is_directory(file) ? file / "job.json" : file;
+}
+
+std::filesystem::path before_out(const JobState& state) {
+  if (!state.job.before->out.empty()) return state.folder / state.job.before->out;
+  return before_file(state).parent_path() / "out";
+}
 
 JobChainage JobState::stretch() const {
   if (job.chainage) return *job.chainage;
@@ -155,6 +184,7 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
   read_control(state);
   read_rings(state);
   read_tolerances(state);
+  look_at_before(state);
   if (!state.job.targets.empty()) state.targets = io::read_targets_csv(state.folder / state.job.targets);
   look_at_cant(state);
   check_job(state);

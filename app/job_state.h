@@ -38,6 +38,7 @@ struct JobState {
   std::vector<TargetObservation> targets;
   std::vector<RingPoint> ring_points;
   std::optional<ToleranceSet> tolerances;
+  std::string before_key;      ///< of the earlier job's poses, as its last run left them
   std::optional<Truth> truth;  ///< of a simulated job
   Findings input_findings;
 
@@ -46,7 +47,8 @@ struct JobState {
   std::vector<std::shared_ptr<io::PointStore>> stores;  ///< in the order of the job's scans
   std::optional<DesignTunnel> design;                   ///< local frame
   std::optional<DeviationMap> map;
-  std::optional<io::MeshFile> mesh;  ///< local frame
+  std::optional<io::MeshFile> mesh;    ///< local frame
+  std::optional<DeviationMap> change;  ///< thickness between the earlier job and this one
 
   /// Where the steps' keys stand: by name of the step.
   std::map<std::string, std::string> keys;
@@ -58,6 +60,10 @@ struct JobState {
   /// Stretch to profile: the job's, or the whole axis.
   JobChainage stretch() const;
 };
+
+/// The job.json of the earlier job, and its folder of derived files. Only for a job that names one.
+std::filesystem::path before_file(const JobState& state);
+std::filesystem::path before_out(const JobState& state);
 
 /// Reads job.json and the small files it names, and hashes all of them. Throws Error for anything broken, before any
 /// long work begins: a chainage outside the axis, a profile that crosses itself, a target without a scan.

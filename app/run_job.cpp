@@ -94,6 +94,10 @@ void write_results(const JobState& state) {
     io::write_file_atomically(state.out / "zones.csv", io::zones_csv(state.results));
   if (state.results.volume && state.tolerances)
     io::write_file_atomically(state.out / "tolerances.csv", io::tolerances_csv(state.results));
+  if (state.results.compare && state.job.face)
+    io::write_file_atomically(state.out / "face.csv", io::face_csv(*state.results.compare));
+  if (state.results.compare && state.job.before)
+    io::write_file_atomically(state.out / "layer.csv", io::layer_csv(*state.results.compare));
   if (state.results.rings) io::write_file_atomically(state.out / "rings.csv", io::rings_csv(state.results));
 }
 

@@ -39,6 +39,7 @@ Step register_step();
 Step surface_step();
 Step profile_step();
 Step volume_step();
+Step compare_step();
 Step rings_step();
 Step report_step();
 

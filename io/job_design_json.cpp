@@ -172,6 +172,36 @@ JobTolerances read_job_tolerances(const JsonPlace& place, const fs::path& folder
   return tolerances;
 }
 
+JobBefore read_before(const JsonPlace& place, const fs::path& folder) {
+  JobBefore before;
+  const JsonPlace job = place.is_text() ? place : place.at("job");
+  before.job = job.text();
+  std::error_code error;
+  const fs::path file = folder / before.job;
+  if (before.job.empty() || !fs::exists(fs::is_directory(file, error) ? file / "job.json" : file, error))
+    job.refuse("there is no job " + quoted_word(before.job), "paths are relative to the folder of job.json");
+  if (place.is_text()) return before;
+  place.only_keys({"job", "out", "layer"});
+  before.out = place.text_or("out", "");
+  if (!place.has("layer")) return before;
+  const JsonPlace layer = place.at("layer");
+  layer.only_keys({"minimum", "nominal"});
+  before.layer.minimum_m = layer.at("minimum").number_between(0.0, 2.0, "m");
+  before.layer.nominal_m =
+      layer.has("nominal") ? layer.at("nominal").number_between(0.0, 2.0, "m") : before.layer.minimum_m;
+  if (before.layer.nominal_m < before.layer.minimum_m)
+    layer.at("nominal").refuse("it is less than the minimum", "exchange them");
+  return before;
+}
+
+JobStraightedge read_straightedge(const JsonPlace& place) {
+  place.only_keys({"length", "limit_ratio"});
+  JobStraightedge edge;
+  edge.length_m = place.at("length").number_between(0.3, 20.0, "m");
+  if (place.has("limit_ratio")) edge.limit_ratio = place.at("limit_ratio").number_between(0.001, 1.0, "");
+  return edge;
+}
+
 void add_profiles(const Job& job, nlohmann::ordered_json& root) {
   for (const JobProfile& profile : job.profiles) {
     nlohmann::ordered_json one;
@@ -216,6 +246,18 @@ void add_review(const Job& job, nlohmann::ordered_json& root) {
     if (!zone.note.empty()) one["note"] = zone.note;
     root["zones"].push_back(one);
   }
+  if (job.before) {
+    nlohmann::ordered_json one{{"job", job.before->job}};
+    if (!job.before->out.empty()) one["out"] = job.before->out;
+    if (job.before->layer != LayerDesign{})
+      one["layer"] = {{"minimum", job.before->layer.minimum_m}, {"nominal", job.before->layer.nominal_m}};
+    root["before"] = one;
+  }
+  if (job.face) root["face"] = true;
+  if (job.straightedge) {
+    root["straightedge"]["length"] = job.straightedge->length_m;
+    if (job.straightedge->limit_ratio > 0.0) root["straightedge"]["limit_ratio"] = job.straightedge->limit_ratio;
+  }
   if (!job.tolerances) return;
   nlohmann::ordered_json one;
   if (!job.tolerances->file.empty()) one["file"] = job.tolerances->file;
@@ -256,6 +298,9 @@ void read_job_design(const JsonPlace& place, const fs::path& folder, Job& job) {
   }
   if (place.has("zones")) job.zones = read_zones(place.at("zones"));
   if (place.has("tolerances")) job.tolerances = read_job_tolerances(place.at("tolerances"), folder);
+  if (place.has("before")) job.before = read_before(place.at("before"), folder);
+  if (place.has("face")) job.face = place.at("face").yes_or_no();
+  if (place.has("straightedge")) job.straightedge = read_straightedge(place.at("straightedge"));
   if (place.has("sectors")) job.sectors = read_sectors(place.at("sectors"));
   if (place.has("swell")) job.swell = place.at("swell").number_between(1.0, 3.0, "");
 }

@@ -102,10 +102,10 @@ Job read_job(const fs::path& file) {
   const json root = parse_json_file(file);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const JsonPlace place(root, file.string());
-  place.only_keys({"adit",    "name",      "client",         "surveyor",        "scans",   "control",
-                   "targets", "alignment", "alignment_name", "alignment_start", "profile", "cant",
-                   "lines",   "chainage",  "rounds",         "drive",           "zones",   "tolerances",
-                   "sectors", "swell",     "rings",          "options"});
+  place.only_keys({"adit",      "name",           "client",          "surveyor",   "scans",  "control", "targets",
+                   "alignment", "alignment_name", "alignment_start", "profile",    "cant",   "lines",   "chainage",
+                   "rounds",    "drive",          "zones",           "tolerances", "before", "face",    "straightedge",
+                   "sectors",   "swell",          "rings",           "options"});
   if (place.at("adit").whole_number() != 1)
     place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
   Job job;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/foundation/angle.h"
+#include "io/comparison_json.h"
 #include "io/review_tables.h"
 
 namespace adit::io {
@@ -363,6 +364,7 @@ std::string results_text(const Results& results) {
     add_zones(root, *results.volume);
     if (!results.volume->tolerances.set.empty()) root["tolerances"] = tolerances_json(results.volume->tolerances);
   }
+  if (results.compare) add_comparison(*results.compare, root);
   if (results.rings) {
     root["rings"] = json::array();
     for (const RingResult& ring : results.rings->rings) root["rings"].push_back(ring_json(ring));

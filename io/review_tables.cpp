@@ -31,12 +31,12 @@ std::string zones_csv(const Results& results) {
   for (std::size_t i = 0; i < results.volume->zones.size(); ++i) {
     const auto& [zone, amounts] = results.volume->zones[i];
     rest_m3 -= amounts.overbreak_m3;
-    csv += row({std::to_string(i + 1), csv_number(zone.from_m, 3), csv_number(zone.to_m, 3),
-                csv_number(zone.from_deg, 1), csv_number(zone.to_deg, 1), zone.reason, csv_word(zone.note),
-                csv_number(amounts.surface_m2, 3),
-                csv_number(amounts.surface_m2 > 0.0 ? amounts.measured_m2 / amounts.surface_m2 : 0.0, 4),
-                csv_number(amounts.overbreak_m3, 4), csv_number(amounts.underbreak_m3, 4),
-                csv_number(amounts.max_overbreak_m, 4)});
+    csv +=
+        row({std::to_string(i + 1), csv_number(zone.from_m, 3), csv_number(zone.to_m, 3), csv_number(zone.from_deg, 1),
+             csv_number(zone.to_deg, 1), zone.reason, csv_word(zone.note), csv_number(amounts.surface_m2, 3),
+             csv_number(amounts.surface_m2 > 0.0 ? amounts.measured_m2 / amounts.surface_m2 : 0.0, 4),
+             csv_number(amounts.overbreak_m3, 4), csv_number(amounts.underbreak_m3, 4),
+             csv_number(amounts.max_overbreak_m, 4)});
   }
   return csv + row({"none", "", "", "", "", "unassigned", "", "", "", csv_number(rest_m3, 4), "", ""});
 }
@@ -55,6 +55,31 @@ std::string tolerances_csv(const Results& results) {
                 csv_number(c.max_underbreak_m, 4), limit(c.limits.max_underbreak_m),
                 csv_number(c.max_underbreak_chainage_m, 3), csv_number(c.under_limit_m2, 3),
                 csv_number(c.max_underbreak_area_m2, 3), limit(c.limits.max_underbreak_area_m2)});
+  return csv;
+}
+
+std::string face_csv(const CompareResult& result) {
+  std::string csv = "epoch,offset_m,height_m,kind,chainage_m\n";
+  constexpr const char* kinds[] = {"beside", "unseen", "hidden", "seen"};
+  const auto add = [&](const char* epoch, const FaceMap& face) {
+    for (std::size_t i = 0; i < face.cells.size(); ++i) {
+      const FaceCell& cell = face.cells[i];
+      if (cell.kind == FaceKind::beside) continue;
+      const Eigen::Vector2d at = face.middle(i % face.columns, i / face.columns);
+      csv += row({epoch, csv_number(at.x(), 3), csv_number(at.y(), 3), kinds[static_cast<int>(cell.kind)],
+                  cell.kind == FaceKind::seen ? csv_number(cell.chainage_m, 4) : std::string()});
+    }
+  };
+  add("before", result.face_before);
+  add("after", result.face);
+  return csv;
+}
+
+std::string layer_csv(const CompareResult& result) {
+  std::string csv = "chainage_m,p_m,measured_m2,mean_m,sigma_m\n";
+  for (const LayerBlock& block : result.layer.blocks)
+    csv += row({csv_number(block.chainage_m, 3), csv_number(block.p_m, 3), csv_number(block.measured_m2, 3),
+                csv_number(block.mean_m, 4), csv_number(block.sigma_m, 4)});
   return csv;
 }
 

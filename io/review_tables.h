@@ -1,6 +1,6 @@
 #pragma once
-// Tables of what a person judges: clearance.csv, zones.csv, tolerances.csv. Comma separated, decimal point, units in
-// the names of the columns.
+// Tables of what a person judges: clearance.csv, zones.csv, tolerances.csv, face.csv, layer.csv. Comma separated,
+// decimal point, units in the names of the columns.
 
 #include <string>
 
@@ -15,6 +15,9 @@ std::string tolerances_csv(const Results& results);  ///< one row a rock class a
 std::string clearance_csv_header();
 std::string clearance_csv_row(const ClearanceResult& clearance, const ClearancePoint& point, const std::string& scan,
                               const Eigen::Vector3d& site, double station_m);
+
+std::string face_csv(const CompareResult& result);   ///< one row a cell of the face
+std::string layer_csv(const CompareResult& result);  ///< one row a block of about a square metre
 
 /// "kept", "broken", or "not shown" where too little was seen to say the first.
 const char* verdict(const ToleranceCheck& check);

@@ -28,6 +28,21 @@ struct adl_serializer<adit::Pose> {
   static void from_json(const json& in, adit::Pose& pose) { pose.matrix() = in.get<Eigen::Matrix4d>(); }
 };
 
+/// [kind] or, of a seen cell, [kind, chainage].
+template <>
+struct adl_serializer<adit::FaceCell> {
+  static void to_json(json& out, const adit::FaceCell& cell) {
+    out = json::array({static_cast<int>(cell.kind)});
+    if (cell.kind == adit::FaceKind::seen) out.push_back(cell.chainage_m);
+  }
+  static void from_json(const json& in, adit::FaceCell& cell) {
+    const int kind = in.at(0).get<int>();
+    if (kind < 0 || kind > static_cast<int>(adit::FaceKind::seen)) throw adit::Error("a cell of no kind");
+    cell.kind = static_cast<adit::FaceKind>(kind);
+    if (cell.kind == adit::FaceKind::seen) cell.chainage_m = in.at(1).get<double>();
+  }
+};
+
 }  // namespace nlohmann
 
 namespace adit {
@@ -77,6 +92,20 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TunnelPoint, s_m, x_m, z_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClearancePoint, scan, at, inside_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Intrusion, points, from_m, to_m, deepest, deepest_site)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClearanceResult, line, line_offset_m, points, intrusions)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaceVolume, excavated_m3, sigma_m3, design_m3, from_m, to_m, advance_m, guessed_m2,
+                                   whole)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RockLeft, mean_m, most_m, over_03_share)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LayerDesign, minimum_m, nominal_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LayerBlock, chainage_m, p_m, measured_m2, mean_m, sigma_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LayerResult, design, surface_m2, measured_m2, mean_m, volume_m3, sigma_volume_m3,
+                                   below_minimum, below_nominal, from_nominal, blocks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChangeResult, level_m, compared_m2, inwards_m2, outwards_m2, inwards_m3, outwards_m3)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UndulationDirection, places, max_depth_m, chainage_m, p_m, depth_95_m, over_limit,
+                                   max_ratio)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UndulationResult, straightedge_m, limit_ratio, along, around)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaceMap, x_from_m, z_from_m, step_m, columns, rows, cells)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CompareResult, before, face_before, face, between, round, drilled_m, left, layer,
+                                   change, undulation, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingResidual, point, clock_deg, residual_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingResult, ring, center, chainage_m, station_m, horizontal_deviation_m,
                                    vertical_deviation_m, radius_m, ovality_m, major_clock_deg, rms_m, sigma_center_m,
@@ -154,6 +183,10 @@ std::string step_text(const RingsResult& result) {
   return nlohmann::json(copy).dump(1);
 }
 
+std::string step_text(const CompareResult& result) {
+  return nlohmann::json(result).dump();
+}
+
 std::string step_text(const ProfileResult& result) {
   return nlohmann::json{{"points_used", result.points_used},
                         {"points_inside", result.points_inside},
@@ -200,6 +233,13 @@ void read_step_text(const std::string& text, ProfileResult& result) {
   } catch (const nlohmann::json::exception& error) {
     throw Error(std::string("what an earlier run left is damaged: ") + error.what(), "", "run the job again");
   }
+}
+
+void read_step_text(const std::string& text, CompareResult& result) {
+  read(text, result);
+  for (const FaceMap* face : {&result.face_before, &result.face})
+    if (face->cells.size() != face->columns * face->rows)
+      throw Error("what an earlier run left is damaged: a face of another size", "", "run the job again");
 }
 
 void read_step_text(const std::string& text, VolumeResult& result) {

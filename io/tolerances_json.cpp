@@ -12,8 +12,8 @@ double limit(const JsonPlace& row, const char* key, double most, const char* uni
 
 ToleranceRow read_row(const JsonPlace& place) {
   constexpr double most_m = 20.0, most_m2 = 1e4;
-  place.only_keys({"rock_class", "sector", "mean_overbreak_m", "max_overbreak_m", "max_underbreak_m",
-                   "max_underbreak_area_m2"});
+  place.only_keys(
+      {"rock_class", "sector", "mean_overbreak_m", "max_overbreak_m", "max_underbreak_m", "max_underbreak_area_m2"});
   ToleranceRow row;
   row.rock_class = place.text_or("rock_class", "any");
   row.sector = place.text_or("sector", "any");

@@ -146,7 +146,8 @@ void draw_strip(Canvas& canvas, const MapStrip& place, const DeviationMap& map, 
 }
 
 void draw_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, const MapTexts& texts) {
-  draw_deviation_legend(canvas, {rect.left + left_mm, rect.top + 2.0, 0.52 * rect.width, 10.0}, scale, text_mm);
+  draw_deviation_legend(canvas, {rect.left + left_mm, rect.top + 2.0, 0.52 * rect.width, 10.0}, scale, text_mm,
+                        texts.words);
   const double x = rect.left + left_mm + 0.52 * rect.width + 14.0;
   const Rect unseen{x, rect.top + 2.6, 4.0, 2.6}, guessed{x, rect.top + 6.6, 4.0, 2.6};
   canvas.hatch({ring_of(unseen)}, {colours::light_grey, 0.15, {}}, 1.0, M_PI / 4.0);

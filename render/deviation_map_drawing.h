@@ -9,6 +9,7 @@
 #include "core/profiling/deviation_map.h"
 #include "render/canvas.h"
 #include "render/colour_map.h"
+#include "render/map_signs.h"
 
 namespace adit::render {
 
@@ -24,6 +25,7 @@ struct MapTexts {
   std::string line = "profile";  ///< the line the deviations are from
   std::vector<LineMark> marks;
   std::vector<JobRound> rounds;
+  LegendWords words = {};
 };
 
 /// Ticks every few metres of p, the crown and the corners, of the profile at the middle of the map.

@@ -37,7 +37,8 @@ void draw_north_arrow(Canvas& canvas, const PaperPoint& centre, double length_mm
               {.size_mm = 2.6, .bold = true, .across = Across::centre, .down = Down::middle, .halo_mm = 0.3});
 }
 
-void draw_deviation_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, double text_mm) {
+void draw_deviation_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, double text_mm,
+                           const LegendWords& words) {
   const std::vector<double> boundaries = scale.boundaries_m();
   const double box_width = rect.width / static_cast<double>(boundaries.size() - 1);
   const double top = rect.top + 1.35 * text_mm, height = 3.2, bottom = top + height;
@@ -58,9 +59,9 @@ void draw_deviation_legend(Canvas& canvas, const Rect& rect, const DeviationScal
                 {.size_mm = text_mm, .across = Across::centre});
   }
   canvas.text({rect.right() + 5.0, bottom + 0.3}, "cm", {.size_mm = text_mm});
-  canvas.text({zero - 1.0, rect.top}, "underbreak",
+  canvas.text({zero - 1.0, rect.top}, words.below,
               {.size_mm = text_mm, .colour = colours::underbreak, .across = Across::right});
-  canvas.text({zero + 1.0, rect.top}, "overbreak", {.size_mm = text_mm, .colour = colours::red});
+  canvas.text({zero + 1.0, rect.top}, words.above, {.size_mm = text_mm, .colour = colours::red});
 }
 
 void draw_names(Canvas& canvas, const PaperPoint& at, const std::vector<NamedColour>& names, double text_mm) {

@@ -15,9 +15,16 @@ double draw_scale_bar(Canvas& canvas, const PaperPoint& at, double mm_per_m, dou
 /// An arrow to the north about `centre`; clockwise_rad is the direction of north on the paper, from up.
 void draw_north_arrow(Canvas& canvas, const PaperPoint& centre, double length_mm, double clockwise_rad);
 
+/// What stands over the two sides of a legend.
+struct LegendWords {
+  std::string below = "underbreak";
+  std::string above = "overbreak";
+};
+
 /// Boxes of the classes side by side, pointed at the ends (and beyond), with their boundaries in cm below and
-/// "underbreak", "overbreak" above. About 10 mm high; `rect` gives the place and the width.
-void draw_deviation_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, double text_mm = 2.3);
+/// the words above. About 10 mm high; `rect` gives the place and the width.
+void draw_deviation_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, double text_mm = 2.3,
+                           const LegendWords& words = {});
 
 /// Coloured squares with names, one below the other, from the upper left corner.
 struct NamedColour {

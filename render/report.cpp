@@ -2,6 +2,7 @@
 
 #include "core/foundation/error.h"
 #include "render/deviation_map_drawing.h"
+#include "render/face_drawing.h"
 #include "render/number_text.h"
 #include "render/report_pages.h"
 #include "render/section_drawing.h"
@@ -26,6 +27,7 @@ int draw_pages(Canvas& canvas, const ReportContent& content, const std::vector<R
   then([&] { add_volume_pages(flow, content); });
   then([&] { add_review_pages(flow, content); });
   then([&] { add_chainage_pages(flow, content); });
+  then([&] { add_comparison_pages(flow, content); });
   then([&] { add_ring_pages(flow, content); });
   then([&] { add_map_page(flow, content); });
   then([&] { add_view_pages(flow, views); });
@@ -53,6 +55,24 @@ Picture map_picture(const ReportContent& content) {
   if (content.design != nullptr) texts.marks = line_marks(*content.design, *content.map);
   draw_deviation_map(canvas, {margin, margin, width, height}, *content.map,
                      deviation_scale(seen_deviations(*content.map)), texts);
+  return canvas.finish_picture();
+}
+
+Picture layer_picture(const ReportContent& content) {
+  const double width = 270.0, margin = 4.0;
+  const double height = deviation_map_height(*content.change, width);
+  Canvas canvas = Canvas::raster(width + 2.0 * margin, height + 2.0 * margin, picture_dpi);
+  draw_deviation_map(canvas, {margin, margin, width, height}, *content.change,
+                     deviation_scale(seen_deviations(*content.change)), layer_texts(content));
+  return canvas.finish_picture();
+}
+
+Picture face_picture(const ReportContent& content) {
+  Canvas canvas = Canvas::raster(120.0, 110.0, picture_dpi);
+  const FaceMap& face = content.results->compare->face;
+  draw_face(
+      canvas, {4.0, 3.0, 112.0, 104.0}, "Face", face,
+      content.design != nullptr ? section_lines(*content.design, summarise(face).mean_m) : std::vector<SectionLine>{});
   return canvas.finish_picture();
 }
 
@@ -91,6 +111,9 @@ ReportFiles draw_report(const ReportContent& content, const GlContext& context, 
   files.pdf = report_pdf(content, views, paging);
   progress.check();
   if (content.map != nullptr && !content.map->cells.empty()) add("map.png", map_picture(content));
+  progress.check();
+  if (content.change != nullptr && !content.change->cells.empty()) add("layer.png", layer_picture(content));
+  if (content.results->compare && !content.results->compare->face.cells.empty()) add("face.png", face_picture(content));
   progress.check();
   if (content.results->profile && !content.results->profile->sections.empty())
     add("volumes.png", chart_picture(content));

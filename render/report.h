@@ -31,6 +31,7 @@ struct ReportContent {
   const Results* results = nullptr;
   const DesignTunnel* design = nullptr;
   const DeviationMap* map = nullptr;
+  const DeviationMap* change = nullptr;  ///< thickness between the earlier job and this one
   const MeshArrays* mesh = nullptr;
   std::vector<float> mesh_deviations_m;  ///< one for each mesh point, NaN where unknown; or empty
   std::vector<OverviewCloud> clouds;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "render/deviation_map_drawing.h"
 #include "render/page.h"
 #include "render/report.h"
 #include "render/report_views.h"
@@ -14,11 +15,15 @@ void add_registration_pages(PageFlow& flow, const ReportContent& content);
 void add_chainage_pages(PageFlow& flow, const ReportContent& content);
 void add_volume_pages(PageFlow& flow, const ReportContent& content);
 void add_review_pages(PageFlow& flow, const ReportContent& content);
+void add_comparison_pages(PageFlow& flow, const ReportContent& content);
 void add_ring_pages(PageFlow& flow, const ReportContent& content);
 void add_map_page(PageFlow& flow, const ReportContent& content);
 void add_view_pages(PageFlow& flow, const std::vector<ReportView>& views);
 void add_section_pages(PageFlow& flow, const ReportContent& content, const Progress& progress);
 void add_provenance_pages(PageFlow& flow, const ReportContent& content);
+
+/// What stands around the map of thickness between two jobs.
+MapTexts layer_texts(const ReportContent& content);
 
 /// The sections that get a drawing: all of them, or evenly chosen ones when there are more than 200.
 std::vector<const Section*> drawn_sections(const ReportContent& content);

@@ -3,6 +3,7 @@
 #include "app/demo.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "app/command_line/command.h"
@@ -12,12 +13,28 @@
 #include "render/gl_context.h"
 
 namespace adit::app {
+namespace {
+
+/// The demo, and with it an earlier one of the same rock, in which the last round has not been blasted yet.
+void make_with_earlier(const std::string& folder, DemoOptions options, bool with_earlier, Progress& progress) {
+  if (!with_earlier) return make_demo(folder, options, progress);
+  Progress later = progress.part(0.5, "making the job");
+  options.before = "before";
+  make_demo(folder, options, later);
+  Progress earlier = progress.part(0.5, "making the earlier job");
+  options.before.clear();
+  options.rounds_back = 1;
+  make_demo(std::filesystem::path(folder) / "before", options, earlier);
+}
+
+}  // namespace
 
 Action declare_demo(CLI::App& command) {
   struct Arguments {
     std::string folder;
     DemoOptions demo;
     bool no_control = false;
+    bool before = false;
     bool no_run = false;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -38,11 +55,12 @@ Action declare_demo(CLI::App& command) {
       ->check(CLI::Range(0.0, 180.0))
       ->capture_default_str();
   command.add_flag("--no-control", arguments->no_control, "no control points and targets");
+  command.add_flag("--before", arguments->before, "an earlier job, a round back, in DIR/before, to be compared with");
   command.add_flag("--no-run", arguments->no_run, "make the job only");
   return [arguments](const CommonOptions& common, Progress& progress) {
     arguments->demo.control = !arguments->no_control;
     Progress making = progress.part(0.3, "making the job");
-    make_demo(arguments->folder, arguments->demo, making);
+    make_with_earlier(arguments->folder, arguments->demo, arguments->before, making);
     if (arguments->no_run) {
       if (!common.quiet) std::printf("Job: %s/job.json\n", arguments->folder.c_str());
       return exit_good;
@@ -50,6 +68,12 @@ Action declare_demo(CLI::App& command) {
     RunOptions options;
     options.context.make_gl_context = [] { return render::make_osmesa_context(); };
     Progress running = progress.part(0.7, "running the job");
+    if (arguments->before) {
+      RunOptions earlier = options;
+      earlier.last_step = "register";
+      Progress part = running.part(0.3, "running the earlier job");
+      run_job(std::filesystem::path(arguments->folder) / "before", earlier, part);
+    }
     const auto state = run_job(arguments->folder, options, running);
     const std::string text = common.json    ? io::results_text(state->results)
                              : common.quiet ? std::string()

@@ -76,6 +76,37 @@ void add_review(std::string& text, const Results& results) {
   add(text, "\nTolerances \"%s\": %td of %zu kept\n", tolerances.set.c_str(), kept, tolerances.checks.size());
 }
 
+void add_face(std::string& text, const char* epoch, const FaceMap& face) {
+  if (face.cells.empty()) return;
+  const FaceSummary summary = summarise(face);
+  add(text, "\nFace %s: chainage %.3f on the mean, %.2f to %.2f (%.0f %% seen)\n", epoch, summary.mean_m,
+      summary.least_m, summary.greatest_m, 100.0 * summary.share());
+}
+
+void add_comparison(std::string& text, const CompareResult& result) {
+  add_face(text, "before", result.face_before);
+  add_face(text, "of this job", result.face);
+  if (result.between.whole)
+    add(text, "  between them %.3f m and %.2f +- %.2f m3\n", result.between.advance_m, result.between.excavated_m3,
+        2.0 * result.between.sigma_m3);
+  if (!result.before.empty()) {
+    const LayerResult& layer = result.layer;
+    add(text, "\nAgainst \"%s\": %.1f mm inwards on the mean, %.2f +- %.2f m3, of %.1f m2 measured in both\n",
+        result.before.c_str(), 1e3 * layer.mean_m, layer.volume_m3, 2.0 * layer.sigma_volume_m3, layer.measured_m2);
+    if (layer.design.nominal_m > 0.0)
+      add(text,
+          "  square metres below the minimum of %.0f mm: %.1f %%, below %.0f mm: %.1f %%, from there on: %.1f %%\n",
+          1e3 * layer.design.minimum_m, 100.0 * layer.below_minimum, 1e3 * layer.design.nominal_m,
+          100.0 * layer.below_nominal, 100.0 * layer.from_nominal);
+    add(text, "  changed for certain (level %.1f mm): %.1f m2 inwards, %.1f m2 outwards\n", 1e3 * result.change.level_m,
+        result.change.inwards_m2, result.change.outwards_m2);
+  }
+  if (result.undulation.straightedge_m > 0.0)
+    add(text, "\nUnder a straightedge of %.2f m: %.1f mm along, %.1f mm around at the most\n",
+        result.undulation.straightedge_m, 1e3 * result.undulation.along.max_depth_m,
+        1e3 * result.undulation.around.max_depth_m);
+}
+
 std::string millimetres(double metres) {
   char text[48];
   std::snprintf(text, sizeof text, "%.1f mm", 1e3 * metres);
@@ -126,6 +157,7 @@ std::string summary_text(const JobState& state) {
   if (results.profile) add(text, "\nSections: %zu\n", results.profile->sections.size());
   if (results.volume) add_volumes(text, *results.volume);
   add_review(text, results);
+  if (results.compare) add_comparison(text, *results.compare);
   if (results.rings) add_rings(text, *results.rings);
   if (results.truth) add_truth(text, *results.truth);
   for (const Finding& finding : all_findings(results)) {

@@ -24,7 +24,7 @@ bool wanted(const JobState&) {
 
 std::string depends_on(const JobState& state) {
   std::string text =
-      "report 2|" + state.results.version + "|" + state.job.name + "|" + state.job.client + "|" + state.job.surveyor;
+      "report 3|" + state.results.version + "|" + state.job.name + "|" + state.job.client + "|" + state.job.surveyor;
   for (const auto& [step, key] : state.keys) text += "|" + step + key;
   const auto truth = state.input_sha256.find("truth.json");
   return text + (truth == state.input_sha256.end() ? "" : "|" + truth->second);
@@ -65,6 +65,7 @@ render::ReportContent content_of(const JobState& state, Progress& progress) {
   content.results = &state.results;
   if (state.design) content.design = &*state.design;
   if (state.map) content.map = &*state.map;
+  if (state.change) content.change = &*state.change;
   if (state.mesh) {
     content.mesh = &state.mesh->mesh;
     content.mesh_deviations_m = state.mesh->deviation_m;

@@ -11,7 +11,7 @@ struct ToleranceRow {
   static constexpr double unlimited = 1e9;
   std::string rock_class = "any";
   std::string sector = "any";
-  double mean_overbreak_m = unlimited;        ///< overbreak volume over the surface
+  double mean_overbreak_m = unlimited;  ///< overbreak volume over the surface
   double max_overbreak_m = unlimited;
   double max_underbreak_m = unlimited;        ///< depth of rock left inside the line
   double max_underbreak_area_m2 = unlimited;  ///< of one piece of rock left inside the line

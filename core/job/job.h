@@ -12,6 +12,7 @@
 #include "core/design/tolerances.h"
 #include "core/geometry/pose.h"
 #include "core/job/import_options.h"
+#include "core/profiling/map_change.h"
 #include "core/profiling/profiling.h"
 #include "core/profiling/reason_zones.h"
 #include "core/profiling/rings.h"
@@ -58,6 +59,19 @@ struct JobTolerances {
   std::vector<RockClassFrom> rock_classes;
 };
 
+/// An earlier job of the same tunnel, run and placed in the site.
+struct JobBefore {
+  std::string job;  ///< its job.json or folder, relative to this job's folder
+  std::string out;  ///< its folder of derived files, relative likewise; empty: beside its job.json
+  LayerDesign layer;
+};
+
+/// A straightedge to be laid on the surface.
+struct JobStraightedge {
+  double length_m = 3.0;
+  double limit_ratio = 0.0;  ///< depth over length of gap; 0: no limit
+};
+
 /// Rings measured by total station.
 struct JobRings {
   std::string file;
@@ -100,6 +114,9 @@ struct Job {
   bool driven_up_chainage = true;  ///< rounds, faces and look-out go up-chainage
   std::vector<ReasonZone> zones;
   std::optional<JobTolerances> tolerances;
+  std::optional<JobBefore> before;
+  bool face = false;  ///< the face is looked for, here and in the earlier job
+  std::optional<JobStraightedge> straightedge;
   std::vector<Sector> sectors = standard_sectors();
   double swell = 0.0;  ///< loose over bank volume; 0: not stated
   std::optional<JobRings> rings;

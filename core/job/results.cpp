@@ -19,6 +19,7 @@ Findings all_findings(const Results& results) {
   if (results.surface) add(results.surface->findings);
   if (results.profile) add(results.profile->findings);
   if (results.volume) add(results.volume->findings);
+  if (results.compare) add(results.compare->findings);
   if (results.rings) add(results.rings->findings);
   add(results.earlier);
   return all;

@@ -10,10 +10,13 @@
 #include "core/foundation/finding.h"
 #include "core/georeference/project_origin.h"
 #include "core/profiling/clearance.h"
+#include "core/profiling/face_volume.h"
+#include "core/profiling/map_change.h"
 #include "core/profiling/profiling.h"
 #include "core/profiling/reason_zones.h"
 #include "core/profiling/rings.h"
 #include "core/profiling/tolerance_check.h"
+#include "core/profiling/undulation.h"
 #include "core/registration/registration.h"
 #include "core/surface/mesh_summary.h"
 
@@ -71,6 +74,21 @@ struct VolumeResult {
   Findings findings;
 };
 
+/// The job's surface against an earlier one, its face, and how even it is: what the job asks for of that.
+struct CompareResult {
+  std::string before;   ///< name of the earlier job; empty: none
+  FaceMap face_before;  ///< without cells: not asked for, or not seen
+  FaceMap face;
+  FaceVolume between;      ///< whole only where both faces were seen
+  int round = 0;           ///< the round between the faces ...
+  double drilled_m = 0.0;  ///< ... and its drilled length; 0: not stated
+  RockLeft left;
+  LayerResult layer;  ///< measured_m2 is 0 without an earlier job
+  ChangeResult change;
+  UndulationResult undulation;  ///< straightedge_m is 0 where none is asked for
+  Findings findings;
+};
+
 /// Errors of a simulated job against its exact truth. What could not be compared (another stretch, a step that has not
 /// run) is not a number.
 struct TruthComparison {
@@ -97,6 +115,7 @@ struct Results {
   std::optional<SurfaceResult> surface;
   std::optional<ProfileResult> profile;
   std::optional<VolumeResult> volume;
+  std::optional<CompareResult> compare;
   std::optional<RingsResult> rings;
   std::optional<TruthComparison> truth;
   Findings earlier;  ///< files of earlier runs that do not show these numbers

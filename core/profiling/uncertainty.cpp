@@ -50,7 +50,14 @@ void add_cell(Sums& sums, const MapCell& cell, const ProfilePoint& at, double ar
     sums.noise_m6 += std::pow(area_m2 * static_cast<double>(cell.spread_m), 2) / std::max(1U, cell.count);
 }
 
-/// Of the scans together: the worst of each, and the datum that they share.
+/// Area by which the volume grows when the window moves along: difference of the ends' counted areas.
+double end_difference_m2(const std::vector<double>& row_amount_m2) {
+  if (row_amount_m2.empty()) return 0.0;
+  return row_amount_m2.back() - row_amount_m2.front();
+}
+
+}  // namespace
+
 PoseSigma common_sigma(const RegistrationResult& registration) {
   PoseSigma worst;
   for (const PlacedScan& scan : registration.scans) {
@@ -63,14 +70,6 @@ PoseSigma common_sigma(const RegistrationResult& registration) {
     *sigma_m = std::hypot(*sigma_m, registration.datum_sigma_m);
   return worst;
 }
-
-/// Area by which the volume grows when the window moves along: difference of the ends' counted areas.
-double end_difference_m2(const std::vector<double>& row_amount_m2) {
-  if (row_amount_m2.empty()) return 0.0;
-  return row_amount_m2.back() - row_amount_m2.front();
-}
-
-}  // namespace
 
 double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line, double from_m,
                        double to_m, VolumePart part, const RegistrationResult& registration,

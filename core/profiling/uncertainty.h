@@ -9,6 +9,9 @@
 
 namespace adit {
 
+/// Of the scans together: the worst of each, and the datum that they share.
+PoseSigma common_sigma(const RegistrationResult& registration);
+
 /// First-order propagation over the map (docs/accuracy.md, uncertainty of volumes). A piece of surface of area a with
 /// outward normal n changes the volume by a (n . t) when the scans move by t, and by a b when distances are off by b.
 /// Counted: datum and registration (across and up over the surface, along at both ends), a common bias of the

@@ -14,8 +14,7 @@ constexpr std::size_t most_intrusions = 60;
 /// "0.213 (0.250)": measured and permitted, red beyond it.
 TableCell against(double value, double limit, int decimals) {
   if (limit >= ToleranceRow::unlimited) return {fixed(value, decimals), colours::grey};
-  return {fixed(value, decimals) + " (" + fixed(limit, decimals) + ")",
-          value > limit ? colours::red : colours::black};
+  return {fixed(value, decimals) + " (" + fixed(limit, decimals) + ")", value > limit ? colours::red : colours::black};
 }
 
 TableCell verdict_cell(const ToleranceCheck& check) {
@@ -37,20 +36,20 @@ void add_tolerances(PageFlow& flow, const ToleranceResult& tolerances, const std
               2.3};
   for (const ToleranceCheck& c : tolerances.checks)
     table.rows.push_back({c.rock_class, c.sector, verdict_cell(c),
-                          TableCell(percent(c.coverage()), c.coverage() < ToleranceCheck::least_coverage
-                                                               ? colours::red
-                                                               : colours::black),
+                          TableCell(percent(c.coverage()),
+                                    c.coverage() < ToleranceCheck::least_coverage ? colours::red : colours::black),
                           against(c.mean_overbreak_m, c.limits.mean_overbreak_m, 3),
                           against(c.max_overbreak_m, c.limits.max_overbreak_m, 3),
                           against(c.max_underbreak_m, c.limits.max_underbreak_m, 3),
                           against(c.max_underbreak_area_m2, c.limits.max_underbreak_area_m2, 2)});
   flow.table(table);
-  flow.paragraph("In brackets: what the set permits. Of measured places alone; \u201cnot shown\u201d: nothing is broken, "
-                 "but less than 80 % was seen. Largest piece: of rock more than 1 cm inside the line. Source of the "
-                 "set: " +
-                     tolerances.source + ". Verified by: " +
-                     (tolerances.verified_by.empty() ? std::string("nobody") : tolerances.verified_by) + ".",
-                 tolerances.verified_by.empty() ? colours::red : colours::grey, 2.3);
+  flow.paragraph(
+      "In brackets: what the set permits. Of measured places alone; \u201cnot shown\u201d: nothing is broken, "
+      "but less than 80 % was seen. Largest piece: of rock more than 1 cm inside the line. Source of the "
+      "set: " +
+          tolerances.source +
+          ". Verified by: " + (tolerances.verified_by.empty() ? std::string("nobody") : tolerances.verified_by) + ".",
+      tolerances.verified_by.empty() ? colours::red : colours::grey, 2.3);
 }
 
 void add_reasons(PageFlow& flow, const VolumeResult& volume) {
@@ -103,9 +102,8 @@ void add_clearance(PageFlow& flow, const ClearanceResult& clearance) {
               2.3};
   std::vector<const Intrusion*> shown;
   for (const Intrusion& intrusion : clearance.intrusions) shown.push_back(&intrusion);
-  std::stable_sort(shown.begin(), shown.end(), [](const Intrusion* a, const Intrusion* b) {
-    return a->deepest.inside_m > b->deepest.inside_m;
-  });
+  std::stable_sort(shown.begin(), shown.end(),
+                   [](const Intrusion* a, const Intrusion* b) { return a->deepest.inside_m > b->deepest.inside_m; });
   if (shown.size() > most_intrusions) shown.resize(most_intrusions);
   for (const Intrusion* i : shown)
     table.rows.push_back({fixed(i->from_m, 2), fixed(i->to_m, 2), std::to_string(i->points),
@@ -117,8 +115,9 @@ void add_clearance(PageFlow& flow, const ClearanceResult& clearance) {
                                ? "The deepest " + std::to_string(shown.size()) + " of " +
                                      std::to_string(clearance.intrusions.size()) + " places. "
                                : std::string();
-  flow.paragraph(left + "All points count, whatever they belong to: rock, bolts, ducts, machines. clearance.csv lists "
-                        "every one of them.",
+  flow.paragraph(left +
+                     "All points count, whatever they belong to: rock, bolts, ducts, machines. clearance.csv lists "
+                     "every one of them.",
                  colours::grey, 2.3);
 }
 

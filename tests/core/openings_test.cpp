@@ -77,8 +77,7 @@ TEST(Openings, ACrossCutIsMarkedOpenAndNeverClosed) {
   EXPECT_NEAR(through.lines[0].area_m2, truth.area_m2 - behind_line_m2, 0.1);
   EXPECT_LT(through.lines[0].max_overbreak_m, 1.0);
 
-  const Volume volume =
-      compute_volume(mapped.map, design, {"excavation", 0.0}, 36.0, 48.0, 1.0, {}, {}, progress);
+  const Volume volume = compute_volume(mapped.map, design, {"excavation", 0.0}, 36.0, 48.0, 1.0, {}, {}, progress);
   EXPECT_NEAR(volume.opening_m2, 2.0 * half_width_m * height_m, 1.0);
   EXPECT_GT(volume.coverage, 0.95);
 }
@@ -89,8 +88,7 @@ TEST(Openings, ANicheWithinReachIsMeasured) {
   Progress progress;
   const MapResult mapped = map_deviations(scans_of(tunnels), design, 36.0, 48.0, {}, progress);
   EXPECT_TRUE(cut_section(mapped.map, design, middle_m, {}).openings.empty());
-  const Volume volume =
-      compute_volume(mapped.map, design, {"excavation", 0.0}, 36.0, 48.0, 1.0, {}, {}, progress);
+  const Volume volume = compute_volume(mapped.map, design, {"excavation", 0.0}, 36.0, 48.0, 1.0, {}, {}, progress);
   const VolumeAmounts plain = true_volume(tunnels.front(), 36.0, 48.0, progress);
   EXPECT_EQ(volume.opening_m2, 0.0);
   // The niche holds 3.2 x 1.75 x 1.2 m less the overbreak that the wall has there anyway, between 0.05 and 0.5 m.

@@ -117,8 +117,7 @@ TEST(Tolerances, OverUnderAndWhatWasNotSeen) {
   poor.max_overbreak_m = 0.4;
   poor.mean_overbreak_m = 0.4;
   const ToleranceSet set{"set", "source", "", {row, poor}};
-  const auto checks =
-      check_tolerances(map, design, {"excavation", 0.0}, standard_sectors(), set, {{26.0, "poor"}});
+  const auto checks = check_tolerances(map, design, {"excavation", 0.0}, standard_sectors(), set, {{26.0, "poor"}});
   ASSERT_EQ(checks.size(), 12U);
   const ToleranceCheck& crown = checks[0];
   EXPECT_EQ(crown.sector, "crown");

@@ -1,0 +1,45 @@
+#include "io/job_json.h"
+
+#include <gtest/gtest.h>
+
+#include "io/atomic_file.h"
+#include "tests/temporary_folder.h"
+
+namespace adit::io {
+namespace {
+
+TEST(JobJson, EverythingOfTheDesignComesBackFromItsText) {
+  const tests::TemporaryFolder folder;
+  for (const char* file : {"s1.ply", "axis.xml", "profile.dxf", "t.json", "earlier.json"})
+    write_file_atomically(folder.path() / file, "x");
+  Job job;
+  job.name = "whole";
+  job.scans = {{"S1", "s1.ply", 0, std::nullopt, {}}};
+  job.alignment = "axis.xml";
+  job.profiles = {{0.0, "profile.dxf", "", "", {}, false}};
+  job.lines = {{"excavation", 0.0}, {"envelope", 0.05, 0.06}, {"clearance", -0.2, 0.0, true}};
+  job.chainage = JobChainage{10.0, 30.0, 2.0};
+  job.rounds = {{7, 12.0, 16.0, 4.2}};
+  job.driven_up_chainage = false;
+  job.zones = {{12.0, 13.0, -30.0, 60.0, "geological", "clay"}, {14.0, 15.0, -180.0, 180.0, "technical", ""}};
+  job.tolerances = JobTolerances{"t.json", "", {{10.0, "A"}, {20.0, "B"}}};
+  job.before = JobBefore{"earlier.json", "earlier_out", {0.05, 0.07}};
+  job.face = true;
+  job.straightedge = JobStraightedge{3.0, 0.2};
+  job.sectors = {{"upper", -90.0, 90.0}, {"lower", 90.0, -90.0}};
+  job.swell = 1.6;
+  write_file_atomically(folder.path() / "job.json", job_text(job));
+  const Job back = read_job(folder.path() / "job.json");
+  EXPECT_EQ(job_text(back), job_text(job));
+  EXPECT_EQ(back.lines, job.lines);
+  EXPECT_EQ(back.zones, job.zones);
+  EXPECT_FALSE(back.driven_up_chainage);
+  EXPECT_EQ(back.tolerances->rock_classes, job.tolerances->rock_classes);
+  EXPECT_EQ(back.before->layer, job.before->layer);
+  EXPECT_EQ(back.before->out, "earlier_out");
+  EXPECT_EQ(back.straightedge->limit_ratio, 0.2);
+  EXPECT_EQ(back.sectors, job.sectors);
+}
+
+}  // namespace
+}  // namespace adit::io
