@@ -8,14 +8,10 @@ using json = nlohmann::ordered_json;
 json face_json(const FaceMap& face) {
   if (face.cells.empty()) return nullptr;
   const FaceSummary summary = summarise(face);
-  return {{"mean_chainage", summary.mean_m},
-          {"min_chainage", summary.least_m},
-          {"max_chainage", summary.greatest_m},
-          {"spread_m", summary.spread_m},
-          {"seen_m2", summary.seen_m2},
-          {"hidden_m2", summary.hidden_m2},
-          {"coverage", summary.share()},
-          {"cell_m", face.step_m}};
+  return {{"mean_chainage", summary.mean_m},    {"min_chainage", summary.least_m},
+          {"max_chainage", summary.greatest_m}, {"spread_m", summary.spread_m},
+          {"seen_m2", summary.seen_m2},         {"hidden_m2", summary.hidden_m2},
+          {"coverage", summary.share()},        {"cell_m", face.step_m}};
 }
 
 json between_json(const CompareResult& result) {
@@ -75,11 +71,10 @@ void add_comparison(const CompareResult& result, json& root) {
   }
   if (result.undulation.straightedge_m <= 0.0) return;
   const UndulationResult& undulation = result.undulation;
-  root["undulation"] = {
-      {"straightedge_m", undulation.straightedge_m},
-      {"limit_ratio", undulation.limit_ratio > 0.0 ? json(undulation.limit_ratio) : json(nullptr)},
-      {"along", direction_json(undulation.along)},
-      {"around", direction_json(undulation.around)}};
+  root["undulation"] = {{"straightedge_m", undulation.straightedge_m},
+                        {"limit_ratio", undulation.limit_ratio > 0.0 ? json(undulation.limit_ratio) : json(nullptr)},
+                        {"along", direction_json(undulation.along)},
+                        {"around", direction_json(undulation.around)}};
 }
 
 }  // namespace adit::io

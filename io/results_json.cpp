@@ -214,6 +214,9 @@ json volume_json(const Volume& volume) {
   for (const SectorVolume& sector : volume.sectors) one["sectors"].push_back(sector_json(sector));
   one["average_end_area"] = amounts_json(volume.average_end_area);
   one["prismoidal"] = amounts_json(volume.prismoidal);
+  if (volume.mesh.there)
+    one["mesh"] = {{"excavated_m3", volume.mesh.closed ? json(volume.mesh.excavated_m3) : json(nullptr)},
+                   {"filled_m2", volume.mesh.filled_m2}};
   return one;
 }
 

@@ -71,7 +71,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SectorVolume, name, surface_m2, measured_m2, 
                                    max_overbreak_m, max_overbreak_chainage_m, max_overbreak_clock_deg)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RoundReview, lookout_collar_m, lookout_toe_m, lookout_per_m, lookout_sigma_per_m,
                                    contour_ratio, overbreak_area_sd_m2, affected_share, mean_overbreak_m)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Volume, line, line_offset_m, line_growth_per_m, from_m, to_m, slices,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshVolume, there, excavated_m3, filled_m2, closed)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Volume, mesh, line, line_offset_m, line_growth_per_m, from_m, to_m, slices,
                                    average_end_area, prismoidal, sigma_excavated_m3, sigma_overbreak_m3,
                                    sigma_underbreak_m3, coverage, measured_m2, interpolated_m2, unseen_m2, opening_m2,
                                    closure_m3, sectors)

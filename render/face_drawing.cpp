@@ -61,8 +61,8 @@ void draw_face(Canvas& canvas, const Rect& rect, const std::string& title, const
               "from chainage " + fixed(summary.mean_m, 3) + " (mean), looking up-chainage, 1:" + fixed(denominator, 0),
               {.size_mm = text_mm});
   canvas.text({rect.left, rect.bottom() - 2.0},
-              fixed(summary.least_m, 2) + " to " + fixed(summary.greatest_m, 2) + ", seen " +
-                  percent(summary.share()) + ", hidden (grey) " + fixed(summary.hidden_m2, 1) + " m\u00b2",
+              fixed(summary.least_m, 2) + " to " + fixed(summary.greatest_m, 2) + ", seen " + percent(summary.share()) +
+                  ", hidden (grey) " + fixed(summary.hidden_m2, 1) + " m\u00b2",
               {.size_mm = text_mm});
 }
 

@@ -54,8 +54,7 @@ std::shared_ptr<JobState> taken_up(const JobState& state, Progress& progress) {
 /// Scans of the earlier job in this job's local frame.
 std::vector<PlacedTiles> placed_here(const JobState& before, const JobState& state) {
   std::vector<PlacedTiles> scans = placed_tiles(before);
-  const Eigen::Vector3d shift =
-      before.results.import.origin.position - state.results.import.origin.position;
+  const Eigen::Vector3d shift = before.results.import.origin.position - state.results.import.origin.position;
   for (PlacedTiles& scan : scans) scan.local_from_scan.translation() += shift;
   return scans;
 }
@@ -76,10 +75,11 @@ FaceMap face_of(const JobState& state, const std::vector<PlacedTiles>& scans, co
   const FaceSummary summary = summarise(face);
   if (summary.share() >= 0.8) return face;
   char words[200];
-  std::snprintf(words, sizeof words,
-                "only %.0f %% of it was seen (%.1f m2 are hidden by muck, or rock left at its foot); its mean is that of "
-                "the seen part",
-                100.0 * summary.share(), summary.hidden_m2);
+  std::snprintf(
+      words, sizeof words,
+      "only %.0f %% of it was seen (%.1f m2 are hidden by muck, or rock left at its foot); its mean is that of "
+      "the seen part",
+      100.0 * summary.share(), summary.hidden_m2);
   result.findings.push_back({Severity::warning, "face " + epoch, words, "scan it after mucking"});
   return face;
 }
@@ -132,8 +132,8 @@ void compare_faces(const JobState& state, const JobState& before, CompareResult&
   if (round == nullptr || round->drilled_m <= 0.0) return;
   result.round = round->number;
   result.drilled_m = round->drilled_m;
-  result.left = rock_left(result.face, summarise(result.face_before).mean_m, round->drilled_m,
-                          state.job.driven_up_chainage);
+  result.left =
+      rock_left(result.face, summarise(result.face_before).mean_m, round->drilled_m, state.job.driven_up_chainage);
 }
 
 void compare_surfaces(JobState& state, const JobState& before, const std::vector<PlacedTiles>& scans,
@@ -141,8 +141,8 @@ void compare_surfaces(JobState& state, const JobState& before, const std::vector
   const DeviationMap& map = *state.map;
   const MapResult earlier = map_deviations(scans, *state.design, map.from_m, map.to_m, state.job.options.profiling,
                                            progress, state.memory_bytes / 4);
-  MapChange change = compare_maps(earlier.map, map, *state.design, state.job.before->layer,
-                                  before.results.registration, state.results.registration);
+  MapChange change = compare_maps(earlier.map, map, *state.design, state.job.before->layer, before.results.registration,
+                                  state.results.registration);
   result.layer = std::move(change.layer);
   result.change = change.change;
   state.change = std::move(change.thickness);
@@ -173,8 +173,8 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
     left.emplace_back("steps/change.bin");
   }
   if (state.job.straightedge)
-    result.undulation = undulation(*state.map, *state.design, state.job.straightedge->length_m,
-                                   state.job.straightedge->limit_ratio);
+    result.undulation =
+        undulation(*state.map, *state.design, state.job.straightedge->length_m, state.job.straightedge->limit_ratio);
   state.results.compare = std::move(result);
   io::write_file_atomically(step_file(state, "compare"), io::step_text(*state.results.compare));
   return left;

@@ -17,6 +17,7 @@
 namespace adit::app {
 namespace {
 
+constexpr double end_m = 1.5;     // of surface beyond the stretch
 constexpr double beside_m = 3.0;  // points farther outside the design are not of this tunnel
 
 bool wanted(const JobState& state) {
@@ -25,7 +26,7 @@ bool wanted(const JobState& state) {
 
 std::string depends_on(const JobState& state) {
   const ProfilingOptions& limits = state.job.options.profiling;
-  std::string text = "surface 1|" + state.keys.at("register") + "|" + options_text(state.job.options.surface);
+  std::string text = "surface 2|" + state.keys.at("register") + "|" + options_text(state.job.options.surface);
   for (const double limit : {limits.reach_in_m, limits.least_range_m, limits.most_range_m})
     text += "|" + short_number(limit);
   if (!state.has_design()) return text;
@@ -41,12 +42,13 @@ double deviation_at(const DesignTunnel& design, const Eigen::Vector3d& point) {
   return design.profile_at(at->s_m).nearest({at->x_m, at->z_m}).deviation_m;
 }
 
-/// With a design only the stretch to be profiled becomes a surface, half a metre more at both ends.
+/// With a design only the stretch to be profiled becomes a surface, end_m more at both ends, so that the mesh is whole
+/// within the stretch.
 bool belongs(const JobState& state, const Eigen::Vector3d& point) {
   if (!state.design) return true;
   const auto at = state.design->alignment().to_tunnel(point);
   const JobChainage stretch = state.stretch();
-  if (!at || at->s_m < stretch.from_m - 0.5 || at->s_m > stretch.to_m + 0.5) return false;
+  if (!at || at->s_m < stretch.from_m - end_m || at->s_m > stretch.to_m + end_m) return false;
   const double deviation = state.design->profile_at(at->s_m).nearest({at->x_m, at->z_m}).deviation_m;
   return deviation < beside_m && deviation > -state.job.options.profiling.reach_in_m;
 }

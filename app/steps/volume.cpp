@@ -1,9 +1,12 @@
 // Volumes of the stretch and of every round, against every line.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "app/step.h"
+#include "core/profiling/mesh_volume.h"
 #include "io/atomic_file.h"
 #include "io/step_json.h"
 #include "io/text_file.h"
@@ -16,7 +19,8 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "volume 7|" + state.keys.at("profile");
+  std::string text = "volume 8|" + state.keys.at("profile");
+  if (const auto surface = state.keys.find("surface"); surface != state.keys.end()) text += "|" + surface->second;
   for (const JobRound& round : state.job.rounds)
     text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +
             "," + short_number(round.drilled_m);
@@ -31,6 +35,21 @@ std::string depends_on(const JobState& state) {
     for (const RockClassFrom& rock : wanted.rock_classes) text += "|" + short_number(rock.from_m) + rock.rock_class;
   }
   return text + "|" + short_number(state.job.swell);
+}
+
+/// The mesh's own opinion; where it is far from the slices a person should look.
+void add_mesh(const std::optional<MeshInTunnel>& mesh, const std::string& subject, Volume& volume, Findings& findings) {
+  constexpr double far_share = 0.005, far_sigmas = 3.0;
+  if (!mesh) return;
+  volume.mesh = mesh->between(volume.from_m, volume.to_m);
+  const double off_m3 = volume.mesh.excavated_m3 - volume.slices.excavated_m3;
+  const double far_m3 = far_share * volume.slices.excavated_m3 + far_sigmas * volume.sigma_excavated_m3;
+  if (!volume.mesh.closed || std::abs(off_m3) <= far_m3) return;
+  char words[160];
+  std::snprintf(words, sizeof words,
+                "the surface mesh holds %+.2f m3 more than the slices; %.1f m2 of its holes were closed by triangles",
+                off_m3, volume.mesh.filled_m2);
+  findings.push_back({Severity::warning, subject, words, "look at the sections where much was not seen"});
 }
 
 /// The sectors of a volume; what they lack to its whole is a fault unless the outline folds.
@@ -49,7 +68,8 @@ void add_sectors(const JobState& state, const DesignLine& line, const std::strin
                       "use the whole; look at the sections where rock stands behind rock"});
 }
 
-void add_round(JobState& state, const JobRound& round, VolumeResult& result, Progress& progress) {
+void add_round(JobState& state, const JobRound& round, const std::optional<MeshInTunnel>& mesh, VolumeResult& result,
+               Progress& progress) {
   const DeviationMap& map = *state.map;
   const double from = std::max(round.from_m, map.from_m);
   const double to = std::min(round.to_m, map.to_m);
@@ -74,6 +94,7 @@ void add_round(JobState& state, const JobRound& round, VolumeResult& result, Pro
   volume.review =
       review_round(map, *state.design, state.job.lines.front(), from, to, state.job.options.profiling.gap_m);
   add_sectors(state, state.job.lines.front(), subject, volume.volume, result.findings);
+  add_mesh(mesh, subject, volume.volume, result.findings);
   result.rounds.push_back(std::move(volume));
 }
 
@@ -115,6 +136,8 @@ void add_tolerances(const JobState& state, VolumeResult& result) {
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   VolumeResult result;
   const DeviationMap& map = *state.map;
+  std::optional<MeshInTunnel> mesh;
+  if (state.mesh) mesh.emplace(state.mesh->mesh, *state.design);
   const double share = 1.0 / static_cast<double>(state.job.lines.size() + state.job.rounds.size());
   for (const DesignLine& line : state.job.lines) {
     if (line.clearance) continue;  // nothing is measured against it
@@ -122,6 +145,7 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
     result.lines.push_back(compute_volume(map, *state.design, line, map.from_m, map.to_m, state.stretch().interval_m,
                                           state.results.registration, state.job.options.profiling, part));
     add_sectors(state, line, "volume " + line.name, result.lines.back(), result.findings);
+    if (result.lines.size() == 1) add_mesh(mesh, "volume " + line.name, result.lines.back(), result.findings);
     const Volume& volume = result.lines.back();
     if (std::abs(volume.closure_m3) > 1e-3)
       result.findings.push_back(
@@ -131,7 +155,7 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   }
   for (const JobRound& round : state.job.rounds) {
     Progress part = progress.part(share, "round " + std::to_string(round.number));
-    add_round(state, round, result, part);
+    add_round(state, round, mesh, result, part);
   }
   add_zones(state, result);
   add_tolerances(state, result);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double raster_m = 0.05;
 constexpr double correlated_m2 = 4.0;  // of a face
-constexpr double least_known = 0.4;  // of an outline
+constexpr double least_known = 0.4;    // of an outline
 
 /// A face that can be asked anywhere near its grid.
 struct FilledFace {
@@ -166,8 +166,8 @@ FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const Dev
   });
   // What was not seen may lie off by the face's own relief: behind muck all of it together, elsewhere piece by piece.
   const double relief_m = std::max(first.spread_m, second.spread_m);
-  const double guessed_variance_m6 = std::pow(hidden_m2 * relief_m, 2) +
-                                     (volume.guessed_m2 - hidden_m2) * correlated_m2 * relief_m * relief_m;
+  const double guessed_variance_m6 =
+      std::pow(hidden_m2 * relief_m, 2) + (volume.guessed_m2 - hidden_m2) * correlated_m2 * relief_m * relief_m;
   const double contour_m3 =
       volume_sigma_m3(map, design, line, volume.from_m, volume.to_m, VolumePart::excavated, registration, options);
   volume.sigma_m3 = std::sqrt(std::pow(face_m2 * std::hypot(before_along_sigma_m, after_along_sigma_m), 2) +

@@ -11,8 +11,8 @@ namespace adit {
 struct FaceVolume {
   double excavated_m3 = 0.0;
   double sigma_m3 = 0.0;
-  double design_m3 = 0.0;   ///< within the reference line instead of the outline
-  double from_m = 0.0;      ///< mean chainage of the faces, lesser first
+  double design_m3 = 0.0;  ///< within the reference line instead of the outline
+  double from_m = 0.0;     ///< mean chainage of the faces, lesser first
   double to_m = 0.0;
   double advance_m = 0.0;   ///< between the means, in the direction of drive
   double guessed_m2 = 0.0;  ///< of both faces, inside the outline: not seen, taken from the nearest place that was
@@ -29,7 +29,7 @@ FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const Dev
 
 /// Rock left at a face against the drilled depth: where the earlier face stood on the mean, plus the drilled length.
 struct RockLeft {
-  double mean_m = 0.0;     ///< of seen cells; what was pulled farther than drilled counts as nothing
+  double mean_m = 0.0;  ///< of seen cells; what was pulled farther than drilled counts as nothing
   double most_m = 0.0;
   double over_03_share = 0.0;  ///< of the seen face where more than 0.3 m was left
 };

@@ -41,6 +41,15 @@ struct BlockSums {
     across_m3 += pair.area_m2 * pair.normal.x() * sigma.across_m;
     up_m3 += pair.area_m2 * pair.normal.y() * sigma.up_m;
   }
+  BlockSums& operator+=(const BlockSums& other) {
+    line_m2 += other.line_m2;
+    area_m2 += other.area_m2;
+    volume_m3 += other.volume_m3;
+    noise_m6 += other.noise_m6;
+    across_m3 += other.across_m3;
+    up_m3 += other.up_m3;
+    return *this;
+  }
   double sigma_m3() const { return std::sqrt(noise_m6 + across_m3 * across_m3 + up_m3 * up_m3); }
 };
 
@@ -56,18 +65,82 @@ void expect_same_grid(const DeviationMap& a, const DeviationMap& b) {
   throw Error("two maps of different grids cannot be compared");
 }
 
+/// Sums over the map, in blocks of about a square metre.
+struct Comparison {
+  const DeviationMap& before;
+  const DeviationMap& after;
+  const DesignTunnel& design;
+  CommonSigma sigma;
+  MapChange result;
+  BlockSums whole;
+  std::vector<double> levels;
+
+  void add_cell(std::size_t r, std::size_t c, const ProfileStretch& stretch, double curvature_per_m, BlockSums& block) {
+    const double q0 = static_cast<double>(c) * after.step_q_m;
+    const double q1 = std::min(q0 + after.step_q_m, stretch.length_m());
+    const double line_m2 = stretch.line_length_m(q0, q1) * after.step_s_m;
+    block.line_m2 += line_m2;
+    const MapCell &old = before.cell(r, c), &present = after.cell(r, c);
+    if (old.kind != CellKind::measured || present.kind != CellKind::measured) return;
+    const ProfilePoint at = stretch.at(0.5 * (q0 + q1));
+    const double half_way_m = 0.5 * static_cast<double>(old.deviation_m + present.deviation_m);
+    const double x_m = at.position.x() + half_way_m * at.normal.x();
+    const Pair pair{line_m2 * std::max(0.0, 1.0 + at.curvature_per_m * half_way_m) * (1.0 - curvature_per_m * x_m),
+                    static_cast<double>(old.deviation_m - present.deviation_m), noise2(old) + noise2(present),
+                    at.normal};
+    block.add(pair, sigma);
+    const double level_m = 1.96 * std::hypot(std::sqrt(pair.noise2_m2), sigma.along_normal(at.normal));
+    levels.push_back(level_m);
+    result.thickness.cell(r, c) = {static_cast<float>(pair.thickness_m), static_cast<float>(level_m), present.count,
+                                   present.incidence, CellKind::measured};
+    add_change(pair, level_m);
+  }
+
+  void add_change(const Pair& pair, double level_m) {
+    ChangeResult& change = result.change;
+    change.compared_m2 += pair.area_m2;
+    if (pair.thickness_m > level_m) {
+      change.inwards_m2 += pair.area_m2;
+      change.inwards_m3 += pair.area_m2 * pair.thickness_m;
+    } else if (pair.thickness_m < -level_m) {
+      change.outwards_m2 += pair.area_m2;
+      change.outwards_m3 -= pair.area_m2 * pair.thickness_m;
+    }
+  }
+
+  /// The rows [first, last), one block long.
+  void add_rows(std::size_t first, std::size_t last) {
+    const auto columns = static_cast<std::size_t>(std::max(1.0, std::round(block_m / after.step_q_m)));
+    std::vector<BlockSums> blocks((after.columns + columns - 1) / columns);
+    for (std::size_t r = first; r < last; ++r) {
+      const double chainage_m = after.row_chainage(r);
+      const ProfileStretch stretch(design.profile_at(chainage_m));
+      const double curvature = design.alignment().horizontal().at(chainage_m).curvature_per_m;
+      for (std::size_t c = 0; c < std::min(after.columns, stretch.columns(after.step_q_m)); ++c)
+        add_cell(r, c, stretch, curvature, blocks[c / columns]);
+    }
+    const double middle_m = after.from_m + 0.5 * static_cast<double>(first + last) * after.step_s_m;
+    const ProfileStretch stretch(design.profile_at(middle_m));
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const BlockSums& block = blocks[b];
+      whole += block;
+      if (block.area_m2 < least_block_share * block.line_m2 || block.area_m2 <= 0.0) continue;
+      const double middle_q = (static_cast<double>(b) + 0.5) * static_cast<double>(columns) * after.step_q_m;
+      result.layer.blocks.push_back({middle_m, stretch.at(std::min(middle_q, stretch.length_m())).p_m, block.area_m2,
+                                     block.volume_m3 / block.area_m2, block.sigma_m3() / block.area_m2});
+    }
+  }
+};
+
 void add_classes(LayerResult& layer) {
   if (layer.blocks.empty()) return;
-  std::size_t below_minimum = 0, below_nominal = 0;
-  for (const LayerBlock& block : layer.blocks) {
-    if (block.mean_m < layer.design.minimum_m)
-      ++below_minimum;
-    else if (block.mean_m < layer.design.nominal_m)
-      ++below_nominal;
-  }
-  const auto all = static_cast<double>(layer.blocks.size());
-  layer.below_minimum = static_cast<double>(below_minimum) / all;
-  layer.below_nominal = static_cast<double>(below_nominal) / all;
+  const auto share_below = [&](double thickness_m) {
+    const auto below = std::count_if(layer.blocks.begin(), layer.blocks.end(),
+                                     [&](const LayerBlock& block) { return block.mean_m < thickness_m; });
+    return static_cast<double>(below) / static_cast<double>(layer.blocks.size());
+  };
+  layer.below_minimum = share_below(layer.design.minimum_m);
+  layer.below_nominal = share_below(layer.design.nominal_m) - layer.below_minimum;
   layer.from_nominal = 1.0 - layer.below_minimum - layer.below_nominal;
 }
 
@@ -77,77 +150,23 @@ MapChange compare_maps(const DeviationMap& before, const DeviationMap& after, co
                        const LayerDesign& layer, const RegistrationResult& registration_before,
                        const RegistrationResult& registration_after) {
   expect_same_grid(before, after);
-  const CommonSigma sigma = sigma_between(registration_before, registration_after);
-  MapChange result;
-  result.layer.design = layer;
+  Comparison comparison{before, after, design, sigma_between(registration_before, registration_after), {}, {}, {}};
+  MapChange& result = comparison.result;
   result.thickness = after;
-  std::vector<double> levels;
-  BlockSums whole;
-  const auto rows_a_block = static_cast<std::size_t>(std::max(1.0, std::round(block_m / after.step_s_m)));
-  const auto columns_a_block = static_cast<std::size_t>(std::max(1.0, std::round(block_m / after.step_q_m)));
-  const std::size_t blocks_across = (after.columns + columns_a_block - 1) / columns_a_block;
-  for (std::size_t first = 0; first < after.rows; first += rows_a_block) {
-    std::vector<BlockSums> blocks(blocks_across);
-    const std::size_t last = std::min(after.rows, first + rows_a_block);
-    for (std::size_t r = first; r < last; ++r) {
-      const double chainage_m = after.row_chainage(r);
-      const ProfileStretch stretch(design.profile_at(chainage_m));
-      const double curvature = design.alignment().horizontal().at(chainage_m).curvature_per_m;
-      for (std::size_t c = 0; c < after.columns; ++c) {
-        MapCell& cell = result.thickness.cell(r, c);
-        const MapCell &old = before.cell(r, c), &present = after.cell(r, c);
-        cell = MapCell{};
-        if (c >= stretch.columns(after.step_q_m)) continue;
-        const double q0 = static_cast<double>(c) * after.step_q_m;
-        const double q1 = std::min(q0 + after.step_q_m, stretch.length_m());
-        const double line_m2 = stretch.line_length_m(q0, q1) * after.step_s_m;
-        blocks[c / columns_a_block].line_m2 += line_m2;
-        if (old.kind != CellKind::measured || present.kind != CellKind::measured) continue;
-        const ProfilePoint at = stretch.at(0.5 * (q0 + q1));
-        const double half_way_m = 0.5 * static_cast<double>(old.deviation_m + present.deviation_m);
-        const double x_m = at.position.x() + half_way_m * at.normal.x();
-        Pair pair{line_m2 * std::max(0.0, 1.0 + at.curvature_per_m * half_way_m) * (1.0 - curvature * x_m),
-                  static_cast<double>(old.deviation_m - present.deviation_m), noise2(old) + noise2(present), at.normal};
-        blocks[c / columns_a_block].add(pair, sigma);
-        const double level_m = 1.96 * std::hypot(std::sqrt(pair.noise2_m2), sigma.along_normal(at.normal));
-        levels.push_back(level_m);
-        cell = {static_cast<float>(pair.thickness_m), static_cast<float>(level_m), present.count, present.incidence,
-                CellKind::measured};
-        result.change.compared_m2 += pair.area_m2;
-        if (pair.thickness_m > level_m) {
-          result.change.inwards_m2 += pair.area_m2;
-          result.change.inwards_m3 += pair.area_m2 * pair.thickness_m;
-        } else if (pair.thickness_m < -level_m) {
-          result.change.outwards_m2 += pair.area_m2;
-          result.change.outwards_m3 -= pair.area_m2 * pair.thickness_m;
-        }
-      }
-    }
-    const double middle_m = after.from_m + 0.5 * static_cast<double>(first + last) * after.step_s_m;
-    const ProfileStretch stretch(design.profile_at(middle_m));
-    for (std::size_t b = 0; b < blocks_across; ++b) {
-      const BlockSums& block = blocks[b];
-      result.layer.surface_m2 += block.line_m2;
-      whole.area_m2 += block.area_m2;
-      whole.volume_m3 += block.volume_m3;
-      whole.noise_m6 += block.noise_m6;
-      whole.across_m3 += block.across_m3;
-      whole.up_m3 += block.up_m3;
-      if (block.area_m2 < least_block_share * block.line_m2 || block.area_m2 <= 0.0) continue;
-      const double middle_q = std::min((static_cast<double>(b) + 0.5) * static_cast<double>(columns_a_block) *
-                                           after.step_q_m,
-                                       stretch.length_m());
-      result.layer.blocks.push_back({middle_m, stretch.at(middle_q).p_m, block.area_m2,
-                                     block.volume_m3 / block.area_m2, block.sigma_m3() / block.area_m2});
-    }
-  }
+  std::fill(result.thickness.cells.begin(), result.thickness.cells.end(), MapCell{});
+  const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(block_m / after.step_s_m)));
+  for (std::size_t first = 0; first < after.rows; first += rows)
+    comparison.add_rows(first, std::min(after.rows, first + rows));
+  const BlockSums& whole = comparison.whole;
+  result.layer.design = layer;
+  result.layer.surface_m2 = whole.line_m2;
   result.layer.measured_m2 = whole.area_m2;
   result.layer.volume_m3 = whole.volume_m3;
   result.layer.sigma_volume_m3 = whole.sigma_m3();
   result.layer.mean_m = whole.area_m2 > 0.0 ? whole.volume_m3 / whole.area_m2 : 0.0;
-  result.change.level_m = levels.empty() ? 0.0 : median(levels);
+  result.change.level_m = comparison.levels.empty() ? 0.0 : median(comparison.levels);
   add_classes(result.layer);
-  return result;
+  return std::move(comparison.result);
 }
 
 }  // namespace adit

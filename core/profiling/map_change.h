@@ -57,7 +57,8 @@ struct MapChange {
 };
 
 /// before and after: maps of the same design and grid. Thickness counts along the outward normal of the profile; the
-/// surface of a cell at half-way depth is (1 + kp d)(1 - kh x) of that of the profile. Throws Error when the grids differ.
+/// surface of a cell at half-way depth is (1 + kp d)(1 - kh x) of that of the profile. Throws Error when the grids
+/// differ.
 MapChange compare_maps(const DeviationMap& before, const DeviationMap& after, const DesignTunnel& design,
                        const LayerDesign& layer, const RegistrationResult& registration_before,
                        const RegistrationResult& registration_after);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 
-
 namespace adit {
 namespace {
 
@@ -121,8 +120,7 @@ UndulationResult undulation(const DeviationMap& map, const DesignTunnel& design,
     Line line{{}, map.step_q_m};
     for (std::size_t c = 0; c < n + around; ++c) line.deviations.push_back(measured(map.cell(r, c % n)));
     for (std::size_t c = 0; c < n; ++c)
-      if (const auto laid = laid_edge(line, c, c + around))
-        add(*laid, limit_ratio, r, laid->deepest % n, found_around);
+      if (const auto laid = laid_edge(line, c, c + around)) add(*laid, limit_ratio, r, laid->deepest % n, found_around);
   }
   result.along = direction_of(std::move(found_along), map, design);
   result.around = direction_of(std::move(found_around), map, design);

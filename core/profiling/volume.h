@@ -21,6 +21,14 @@ struct VolumeAmounts {
   double underbreak_m3 = 0.0;
 };
 
+/// The volume of the surface mesh: an opinion by another way (core/profiling/mesh_volume.h).
+struct MeshVolume {
+  bool there = false;  ///< the job has a mesh
+  double excavated_m3 = 0.0;
+  double filled_m2 = 0.0;  ///< of holes and jagged ends within the stretch, closed by triangles
+  bool closed = false;     ///< otherwise the mesh ends within the stretch, and there is no volume
+};
+
 /// One line, one stretch. sigma are one standard deviation.
 struct Volume {
   std::string line;
@@ -31,6 +39,7 @@ struct Volume {
   VolumeAmounts slices;            ///< thin slices with plan curvature: the number to use
   VolumeAmounts average_end_area;  ///< from the sections at the job's interval
   VolumeAmounts prismoidal;
+  MeshVolume mesh;
   double sigma_excavated_m3 = 0.0;
   double sigma_overbreak_m3 = 0.0;
   double sigma_underbreak_m3 = 0.0;

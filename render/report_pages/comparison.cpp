@@ -35,15 +35,15 @@ void add_faces(PageFlow& flow, const ReportContent& content) {
   if (two) table.rows.push_back(face_row("earlier job", result.face_before));
   table.rows.push_back(face_row("this job", result.face));
   flow.table(table);
-  flow.paragraph("Hidden: muck, or rock left at the foot, more than half a metre before the face's middle. Means are "
-                 "those of the seen part.",
-                 colours::grey, 2.3);
+  flow.paragraph(
+      "Hidden: muck, or rock left at the foot, more than half a metre before the face's middle. Means are "
+      "those of the seen part.",
+      colours::grey, 2.3);
   const Rect row = flow.take(92.0);
   const double width = (row.width - 4.0) / 2.0;
   const auto lines_at = [&](const FaceMap& face) {
-    return content.design != nullptr && !face.cells.empty()
-               ? section_lines(*content.design, summarise(face).mean_m)
-               : std::vector<SectionLine>{};
+    return content.design != nullptr && !face.cells.empty() ? section_lines(*content.design, summarise(face).mean_m)
+                                                            : std::vector<SectionLine>{};
   };
   if (two)
     draw_face(flow.canvas(), {row.left, row.top, width, row.height}, "Earlier face", result.face_before,
@@ -69,16 +69,16 @@ void add_between(PageFlow& flow, const CompareResult& result) {
               2.4};
   const bool round = result.drilled_m > 0.0;
   table.rows.push_back({fixed(v.advance_m, 3), fixed(v.excavated_m3, 1), fixed(2.0 * v.sigma_m3, 1),
-                        fixed(v.design_m3, 1), fixed(v.guessed_m2, 1),
-                        round ? std::to_string(result.round) : "\u2013", round ? fixed(result.drilled_m, 2) : "\u2013",
+                        fixed(v.design_m3, 1), fixed(v.guessed_m2, 1), round ? std::to_string(result.round) : "\u2013",
+                        round ? fixed(result.drilled_m, 2) : "\u2013",
                         round ? percent(v.advance_m / result.drilled_m) : "\u2013",
                         round ? fixed(result.left.mean_m, 2) : "\u2013"});
   flow.table(table);
   flow.paragraph(
       "Excavated: what lies within this job's as-built outline and between both faces, with the plan's curvature; design: within the "
       "reference line instead. Guessed: of both faces, taken from the nearest place that was seen." +
-          (round ? " Rock left against the drilled depth: " + fixed(result.left.most_m, 2) + " m at the most, over 0.3 m on " +
-                       percent(result.left.over_03_share) + " of the seen face."
+          (round ? " Rock left against the drilled depth: " + fixed(result.left.most_m, 2) +
+                       " m at the most, over 0.3 m on " + percent(result.left.over_03_share) + " of the seen face."
                  : std::string()),
       colours::grey, 2.3);
 }
@@ -98,24 +98,24 @@ void add_layer(PageFlow& flow, const ReportContent& content) {
               {},
               2.4};
   const auto share = [&](double value) { return said ? percent(value, 1) : std::string("\u2013"); };
-  table.rows.push_back({fixed(layer.measured_m2, 1), fixed(1e3 * layer.mean_m, 1), fixed(layer.volume_m3, 2),
-                        fixed(2.0 * layer.sigma_volume_m3, 2),
-                        TableCell(share(layer.below_minimum),
-                                  said && layer.below_minimum > 0.0 ? colours::red : colours::black),
-                        share(layer.below_nominal), share(layer.from_nominal)});
+  table.rows.push_back(
+      {fixed(layer.measured_m2, 1), fixed(1e3 * layer.mean_m, 1), fixed(layer.volume_m3, 2),
+       fixed(2.0 * layer.sigma_volume_m3, 2),
+       TableCell(share(layer.below_minimum), said && layer.below_minimum > 0.0 ? colours::red : colours::black),
+       share(layer.below_nominal), share(layer.from_nominal)});
   flow.table(table);
   const ChangeResult& change = result.change;
-  flow.paragraph(
-      "Positive: the surface came in. " +
-          (said ? "Classes are of " + std::to_string(layer.blocks.size()) + " blocks of about a square metre: minimum " +
-                      fixed(1e3 * layer.design.minimum_m, 0) + " mm, nominal " + fixed(1e3 * layer.design.nominal_m, 0) +
-                      " mm. "
-                : std::string()) +
-          "Changed for certain (95 %, level of detection " + fixed(1e3 * change.level_m, 1) + " mm on the median, with the " +
-          "registration of both): " + fixed(change.inwards_m2, 1) + " m\u00b2 and " + fixed(change.inwards_m3, 2) +
-          " m\u00b3 inwards, " + fixed(change.outwards_m2, 1) + " m\u00b2 and " + fixed(change.outwards_m3, 2) +
-          " m\u00b3 outwards, of " + fixed(change.compared_m2, 1) + " m\u00b2.",
-      colours::grey, 2.3);
+  flow.paragraph("Positive: the surface came in. " +
+                     (said ? "Classes are of " + std::to_string(layer.blocks.size()) +
+                                 " blocks of about a square metre: minimum " + fixed(1e3 * layer.design.minimum_m, 0) +
+                                 " mm, nominal " + fixed(1e3 * layer.design.nominal_m, 0) + " mm. "
+                           : std::string()) +
+                     "Changed for certain (95 %, level of detection " + fixed(1e3 * change.level_m, 1) +
+                     " mm on the median, with the " + "registration of both): " + fixed(change.inwards_m2, 1) +
+                     " m\u00b2 and " + fixed(change.inwards_m3, 2) + " m\u00b3 inwards, " +
+                     fixed(change.outwards_m2, 1) + " m\u00b2 and " + fixed(change.outwards_m3, 2) +
+                     " m\u00b3 outwards, of " + fixed(change.compared_m2, 1) + " m\u00b2.",
+                 colours::grey, 2.3);
   if (content.change == nullptr || content.change->cells.empty()) return;
   const double height = deviation_map_height(*content.change, flow.width_mm());
   draw_deviation_map(flow.canvas(), flow.take(height), *content.change,
@@ -140,18 +140,19 @@ void add_undulation(PageFlow& flow, const UndulationResult& result) {
       table.rows.push_back({name, "0"});
       return;
     }
-    table.rows.push_back({name, std::to_string(d.places), fixed(1e3 * d.max_depth_m, 1), fixed(d.chainage_m, 2),
-                          with_sign(d.p_m, 2), fixed(1e3 * d.depth_95_m, 1),
-                          TableCell(fixed(d.max_ratio, 3),
-                                    limited && d.max_ratio > result.limit_ratio ? colours::red : colours::black),
-                          limited ? percent(d.over_limit, 1) : std::string("\u2013")});
+    table.rows.push_back(
+        {name, std::to_string(d.places), fixed(1e3 * d.max_depth_m, 1), fixed(d.chainage_m, 2), with_sign(d.p_m, 2),
+         fixed(1e3 * d.depth_95_m, 1),
+         TableCell(fixed(d.max_ratio, 3), limited && d.max_ratio > result.limit_ratio ? colours::red : colours::black),
+         limited ? percent(d.over_limit, 1) : std::string("\u2013")});
   };
   add("along the axis", result.along);
   add("around the profile", result.around);
   flow.table(table);
-  flow.paragraph("The edge touches the innermost points; around the profile it is bent like the design line. " +
-                     (limited ? "Limit of depth over length of gap: " + fixed(result.limit_ratio, 3) + "." : std::string()),
-                 colours::grey, 2.3);
+  flow.paragraph(
+      "The edge touches the innermost points; around the profile it is bent like the design line. " +
+          (limited ? "Limit of depth over length of gap: " + fixed(result.limit_ratio, 3) + "." : std::string()),
+      colours::grey, 2.3);
 }
 
 }  // namespace

@@ -41,6 +41,10 @@ void add_methods(PageFlow& flow, const std::vector<Volume>& lines) {
     table.rows.push_back(method_row(line_name(v), "thin slices, curved axis", v.slices, true));
     table.rows.push_back(method_row("", "average end area", v.average_end_area, false));
     table.rows.push_back(method_row("", "prismoidal", v.prismoidal, false));
+    if (v.mesh.there)
+      table.rows.push_back(
+          {"", "surface mesh", "",
+           v.mesh.closed ? TableCell(fixed(v.mesh.excavated_m3, 1)) : TableCell("open", colours::red)});
   }
   flow.table(table);
   flow.paragraph(

@@ -27,7 +27,8 @@ std::vector<PlacedTiles> scans_of(const RockTunnel& rock, const std::vector<doub
   std::vector<PlacedTiles> scans;
   for (const double s : stations_m) {
     const Pose pose = tests::station(rock.design(), s, 30.0 + s);
-    scans.push_back({"S", std::make_shared<CloudTiles>(tests::scan_at(rock, pose, static_cast<std::uint64_t>(s), 500000)), pose});
+    scans.push_back(
+        {"S", std::make_shared<CloudTiles>(tests::scan_at(rock, pose, static_cast<std::uint64_t>(s), 500000)), pose});
   }
   return scans;
 }
@@ -104,8 +105,8 @@ TEST(FaceVolumeSlow, ARoundBetweenTwoFacesWithinTwoSigmas) {
   const FaceMap first = face_of(scans_of(before, {32.0, 39.0}), design), second = face_of(later, design);
   Progress progress;
   const MapResult mapped = map_deviations(later, design, 30.0, 48.5, {}, progress);
-  const FaceVolume volume = volume_between(first, second, mapped.map, design, {"excavation", 0.0}, 0.002, 0.002, {}, {},
-                                           progress);
+  const FaceVolume volume =
+      volume_between(first, second, mapped.map, design, {"excavation", 0.0}, 0.002, 0.002, {}, {}, progress);
   ASSERT_TRUE(volume.whole);
   const double truth = true_volume_between(before, after);
   EXPECT_NEAR(volume.advance_m, 4.0, 0.01);
