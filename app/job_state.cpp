@@ -49,7 +49,7 @@ void expect_inputs_apart(const JobState& state, const std::vector<std::string>& 
     };
     for (const char* name :
          {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "sectors.csv", "rings.csv", "clearance.csv",
-          "zones.csv", "face.csv", "layer.csv", "tolerances.csv", "results.json", "report.pdf", ".lock"})
+          "zones.csv", "circles.csv", "face.csv", "layer.csv", "tolerances.csv", "results.json", "report.pdf", ".lock"})
       if (real(state.out / name) == input) refuse();
     for (const char* name : {"import", "steps", "report", "figures"}) {
       const fs::path below = input.lexically_relative(real(state.out / name));

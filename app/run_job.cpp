@@ -84,10 +84,17 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+bool has_circles(const ProfileResult& profile) {
+  return std::any_of(profile.sections.begin(), profile.sections.end(),
+                     [](const Section& section) { return section.circle.there; });
+}
+
 void write_results(const JobState& state) {
   io::write_file_atomically(state.out / "results.json", io::results_text(state.results));
   if (state.has_scans()) io::write_file_atomically(state.out / "registration.csv", io::registration_csv(state.results));
   if (state.results.profile) io::write_file_atomically(state.out / "sections.csv", io::sections_csv(state.results));
+  if (state.results.profile && has_circles(*state.results.profile))
+    io::write_file_atomically(state.out / "circles.csv", io::circles_csv(state.results));
   if (state.results.volume) io::write_file_atomically(state.out / "volumes.csv", io::volumes_csv(state.results));
   if (state.results.volume) io::write_file_atomically(state.out / "sectors.csv", io::sectors_csv(state.results));
   if (state.results.volume && !state.job.zones.empty())

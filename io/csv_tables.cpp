@@ -110,6 +110,23 @@ std::string sectors_csv(const Results& results) {
   return csv;
 }
 
+std::string circles_csv(const Results& results) {
+  std::string csv =
+      "chainage_m,station_m,center_offset_m,center_height_m,horizontal_deviation_m,vertical_deviation_m,radius_m,"
+      "design_radius_m,ovality_m,major_clock_deg,rms_m,covered_deg\n";
+  if (!results.profile) return csv;
+  for (const Section& section : results.profile->sections) {
+    const SectionCircle& c = section.circle;
+    if (!c.there) continue;
+    csv += csv_number(section.chainage_m, 3) + "," + csv_number(section.station_m, 3) + "," +
+           csv_number(c.center.x(), 4) + "," + csv_number(c.center.y(), 4) + "," + csv_number(c.deviation_m.x(), 4) +
+           "," + csv_number(c.deviation_m.y(), 4) + "," + csv_number(c.radius_m, 4) + "," +
+           csv_number(c.design_radius_m, 4) + "," + csv_number(c.ovality_m, 4) + "," +
+           csv_number(c.major_clock_deg, 1) + "," + csv_number(c.rms_m, 4) + "," + csv_number(c.covered_deg, 0) + "\n";
+  }
+  return csv;
+}
+
 std::string rings_csv(const Results& results) {
   std::string csv =
       "ring,chainage_m,station_m,center_east_m,center_north_m,center_elevation_m,horizontal_deviation_m,"

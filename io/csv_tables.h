@@ -13,5 +13,6 @@ std::string volumes_csv(const Results& results);       ///< one row a stretch, l
 std::string sectors_csv(const Results& results);       ///< one row a stretch, line and sector
 std::string registration_csv(const Results& results);  ///< one row a scan
 std::string rings_csv(const Results& results);         ///< one row a ring
+std::string circles_csv(const Results& results);       ///< one row a section with a best circle
 
 }  // namespace adit::io

@@ -139,6 +139,19 @@ void add_members(json& object, const json& more) {
   for (const auto& [key, value] : more.items()) object[key] = value;
 }
 
+json circle_json(const SectionCircle& circle) {
+  return {{"center_offset_m", circle.center.x()},
+          {"center_height_m", circle.center.y()},
+          {"horizontal_deviation_m", circle.deviation_m.x()},
+          {"vertical_deviation_m", circle.deviation_m.y()},
+          {"radius_m", circle.radius_m},
+          {"design_radius_m", circle.design_radius_m},
+          {"ovality_m", number(circle.ovality_m)},
+          {"major_clock_deg", number(circle.major_clock_deg)},
+          {"rms_m", circle.rms_m},
+          {"covered_deg", circle.covered_deg}};
+}
+
 json section_json(const Section& section) {
   json one{{"chainage", section.chainage_m}, {"station", section.station_m}};
   const Eigen::Vector3d& axis = section.axis_site;
@@ -146,6 +159,7 @@ json section_json(const Section& section) {
   one["openings"] = json::array();
   for (const LineOpening& opening : section.openings)
     one["openings"].push_back({{"p_from_m", opening.p_from_m}, {"p_to_m", opening.p_to_m}});
+  if (section.circle.there) one["circle"] = circle_json(section.circle);
   if (section.lines.empty()) return one;
   add_members(one, line_json(section.lines.front()));
   one["lines"] = json::array();

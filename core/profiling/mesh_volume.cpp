@@ -30,8 +30,8 @@ Corners clipped(const Corners& polygon, double at_m, double sign) {
 double flux(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double k) {
   const Eigen::Vector3d twice_area = (b - a).cross(c - a);
   double sum = 0.0;
-  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0.5 * (a + b)), Eigen::Vector3d(0.5 * (b + c)),
-                                   Eigen::Vector3d(0.5 * (c + a))}) {
+  for (const Eigen::Vector3d& p :
+       {Eigen::Vector3d(0.5 * (a + b)), Eigen::Vector3d(0.5 * (b + c)), Eigen::Vector3d(0.5 * (c + a))}) {
     const double x = p.y(), z = p.z();
     sum += (0.5 * x - k * x * x / 3.0) * twice_area.y() + z * (0.5 - k * x / 3.0) * twice_area.z();
   }
@@ -157,8 +157,7 @@ MeshVolume MeshInTunnel::between(double from_m, double to_m) const {
       inside = clipped(clipped(inside, from_m, 1.0), to_m, -1.0);
       for (std::size_t i = 2; i < inside.size(); ++i) {
         part.flux += flux(inside[0], inside[i - 1], inside[i], triangle.curvature_per_m);
-        if (triangle.filled)
-          part.filled_m2 += 0.5 * (inside[i - 1] - inside[0]).cross(inside[i] - inside[0]).norm();
+        if (triangle.filled) part.filled_m2 += 0.5 * (inside[i - 1] - inside[0]).cross(inside[i] - inside[0]).norm();
       }
     }
     return part;

@@ -12,16 +12,17 @@ namespace adit {
 
 struct MeshArrays;
 
-/// A mesh of a tunnel (frame of the design) with its holes closed, in tunnel coordinates; made once, asked often. Pieces
-/// without a loop that goes around the axis are no tunnel (parts of machines, islands in a hole) and are left out.
+/// A mesh of a tunnel (frame of the design) with its holes closed, in tunnel coordinates; made once, asked often.
+/// Pieces without a loop that goes around the axis are no tunnel (parts of machines, islands in a hole) and are left
+/// out.
 class MeshInTunnel {
  public:
-  /// Loops that go around the axis are the tunnel's ends. Their rims are made flat: walls parallel to the axis lead from
-  /// each edge to the plane of the outermost point.
+  /// Loops that go around the axis are the tunnel's ends. Their rims are made flat: walls parallel to the axis lead
+  /// from each edge to the plane of the outermost point.
   MeshInTunnel(const MeshArrays& mesh, const DesignTunnel& design);
 
-  /// Divergence theorem: with F = (0, x/2 - k x^2/3, z (1/2 - k x/3)) in (s, x, z), div F = 1 - k x, the volume of a slice
-  /// with plan curvature k, and no part of F goes through planes across the axis, so that the ends need no lids.
+  /// Divergence theorem: with F = (0, x/2 - k x^2/3, z (1/2 - k x/3)) in (s, x, z), div F = 1 - k x, the volume of a
+  /// slice with plan curvature k, and no part of F goes through planes across the axis, so that the ends need no lids.
   MeshVolume between(double from_m, double to_m) const;
 
  private:

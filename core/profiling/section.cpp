@@ -6,6 +6,7 @@
 #include "core/profiling/outline.h"
 #include "core/profiling/overbreak.h"
 #include "core/profiling/profiling.h"
+#include "core/profiling/section_circle.h"
 
 namespace adit {
 namespace {
@@ -62,6 +63,7 @@ Section cut_section(const DeviationMap& map, const DesignTunnel& design, double 
       section.lines.push_back(
           section_areas(outline, stretch, map.step_q_m, line_polygon(profile, design.line_at(line, chainage_m))));
   section.openings = openings_of(outline.points);
+  if (const auto circle = circle_of(profile)) section.circle = best_circle(outline.points, *circle);
   section.outline = std::move(outline.points);
   return section;
 }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,21 @@ struct LineOpening {
   double p_to_m = 0.0;
 };
 
+/// The best circle of a section whose profile is one (core/profiling/section_circle.h).
+struct SectionCircle {
+  bool there = false;
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();       ///< offset, height
+  Eigen::Vector2d deviation_m = Eigen::Vector2d::Zero();  ///< of the centre from the design's: right and up positive
+  double radius_m = 0.0;
+  double design_radius_m = 0.0;
+  /// Largest less smallest diameter of the best ellipse, and where the largest points (0 to 180 degrees, clockwise from
+  /// the crown); not a number where less than 210 degrees were measured.
+  double ovality_m = std::numeric_limits<double>::quiet_NaN();
+  double major_clock_deg = std::numeric_limits<double>::quiet_NaN();
+  double rms_m = 0.0;
+  double covered_deg = 0.0;
+};
+
 struct Section {
   double chainage_m = 0.0;                              ///< internal
   double station_m = 0.0;                               ///< displayed
@@ -49,6 +65,7 @@ struct Section {
   std::vector<OutlinePoint> outline;                    ///< closed, clockwise looking up-chainage
   std::vector<SectionAreas> lines;  ///< one for each design line but clearance lines, the first is the reference
   std::vector<LineOpening> openings;
+  SectionCircle circle;
 };
 
 }  // namespace adit

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "render/number_text.h"
 #include "render/report_pages.h"
 
@@ -26,6 +28,41 @@ std::vector<TableCell> row_of(const Section& section) {
           place(a.max_underbreak_m, a.max_underbreak_p_m),
           TableCell(percent(a.coverage), weak ? colours::red : colours::black, weak),
           percent(a.interpolated)};
+}
+
+std::string known(double value, double factor, int decimals) {
+  return std::isfinite(value) ? fixed(factor * value, decimals) : std::string("\u2013");
+}
+
+/// The best circles of sections whose profile is one.
+void add_circles(PageFlow& flow, const std::vector<Section>& sections) {
+  Table table{{{"chainage m", 20, true},
+               {"station m", 20, true},
+               {"centre right mm", 24, true},
+               {"up mm", 18, true},
+               {"radius m", 20, true},
+               {"design m", 18, true},
+               {"ovality mm", 20, true},
+               {"largest at \u00b0", 18, true},
+               {"rms mm", 16, true},
+               {"covered \u00b0", 16, true}},
+              {},
+              2.3};
+  for (const Section& section : sections) {
+    const SectionCircle& c = section.circle;
+    if (!c.there) continue;
+    table.rows.push_back({fixed(section.chainage_m, 2), fixed(section.station_m, 2),
+                          with_sign(1e3 * c.deviation_m.x(), 1), with_sign(1e3 * c.deviation_m.y(), 1),
+                          fixed(c.radius_m, 4), fixed(c.design_radius_m, 3), known(c.ovality_m, 1e3, 1),
+                          known(c.major_clock_deg, 1.0, 0), fixed(1e3 * c.rms_m, 1), fixed(c.covered_deg, 0)});
+  }
+  if (table.rows.empty()) return;
+  flow.start("Sections: best circles");
+  flow.table(table);
+  flow.paragraph(
+      "Least squares through the measured outline, in the section plane. Centre: from where the design has it. "
+      "Ovality: largest less smallest diameter of the best ellipse.",
+      colours::grey, 2.3);
 }
 
 }  // namespace
@@ -63,6 +100,7 @@ void add_chainage_pages(PageFlow& flow, const ReportContent& content) {
                      "; left out inside the line (equipment, people, muck) " + grouped(profile.points_inside) +
                      "; left out far outside it " + grouped(profile.points_outside) + ".",
                  colours::grey, 2.3);
+  add_circles(flow, profile.sections);
 }
 
 }  // namespace adit::render
