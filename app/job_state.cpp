@@ -159,6 +159,7 @@ JobChainage JobState::stretch() const {
 
 std::string JobState::profiles_text() const {
   std::string text = job.turned_by_cant ? "|turned by cant" : "";
+  if (job.sections == JobSections::square) text += "|square";
   for (const JobProfile& profile : job.profiles) {
     text += "|" + (profile.library.empty() ? input_sha256.at(profile.file) : "library " + profile.library) +
             profile.layer + short_number(profile.from_m) + (profile.interpolated ? " to next" : "");

@@ -47,8 +47,9 @@ struct JobState {
   std::vector<std::shared_ptr<io::PointStore>> stores;  ///< in the order of the job's scans
   std::optional<DesignTunnel> design;                   ///< local frame
   std::optional<DeviationMap> map;
-  std::optional<io::MeshFile> mesh;    ///< local frame
-  std::optional<DeviationMap> change;  ///< thickness between the earlier job and this one
+  std::optional<DeviationMap> square_map;  ///< where the job asks for both planes
+  std::optional<io::MeshFile> mesh;        ///< local frame
+  std::optional<DeviationMap> change;      ///< thickness between the earlier job and this one
 
   /// Where the steps' keys stand: by name of the step.
   std::map<std::string, std::string> keys;

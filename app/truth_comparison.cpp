@@ -20,17 +20,20 @@ TruthComparison compare_with_truth(const Results& results, const Truth& truth) {
           std::max(comparison.worst_rotation_error_rad, rotation_between_rad(pose, truth.site_from_scan[k]));
     }
   }
+  // The truth is that of vertical planes.
+  const bool vertical = results.profile && !results.profile->sections.empty() &&
+                        results.profile->sections.front().plane == SectionPlane::vertical;
   if (results.volume && !results.volume->lines.empty()) {
     const Volume& volume = results.volume->lines.front();
     const bool same_stretch =
         std::abs(volume.from_m - truth.from_m) < 1e-6 && std::abs(volume.to_m - truth.to_m) < 1e-6;
-    if (same_stretch && volume.line_offset_m == 0.0) {
+    if (same_stretch && vertical && volume.line_offset_m == 0.0) {
       comparison.excavated_error = volume.slices.excavated_m3 / truth.volume.excavated_m3 - 1.0;
       comparison.overbreak_error = volume.slices.overbreak_m3 / truth.volume.overbreak_m3 - 1.0;
       comparison.underbreak_error_m3 = volume.slices.underbreak_m3 - truth.volume.underbreak_m3;
     }
   }
-  if (results.profile) {
+  if (vertical) {
     std::vector<double> errors;
     for (const Section& section : results.profile->sections)
       for (const TrueSection& known : truth.sections)

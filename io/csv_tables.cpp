@@ -34,9 +34,9 @@ std::string sections_csv(const Results& results) {
   std::string csv =
       "chainage_m,station_m,axis_east_m,axis_north_m,axis_elevation_m,line,line_offset_m,design_area_m2,area_m2,"
       "overbreak_m2,"
-      "underbreak_m2,max_overbreak_m,max_overbreak_p_m,max_underbreak_m,max_underbreak_p_m,coverage,interpolated,openings\n";
+      "underbreak_m2,max_overbreak_m,max_overbreak_p_m,max_underbreak_m,max_underbreak_p_m,coverage,interpolated,openings,plane\n";
   if (!results.profile) return csv;
-  for (const Section& section : results.profile->sections)
+  const auto add = [&](const Section& section) {
     for (const SectionAreas& a : section.lines)
       csv += csv_number(section.chainage_m, 3) + "," + csv_number(section.station_m, 3) + "," +
              csv_number(section.axis_site.x(), 4) + "," + csv_number(section.axis_site.y(), 4) + "," +
@@ -46,7 +46,11 @@ std::string sections_csv(const Results& results) {
              csv_number(a.max_overbreak_m, 4) + "," + csv_number(a.max_overbreak_p_m, 3) + "," +
              csv_number(a.max_underbreak_m, 4) + "," + csv_number(a.max_underbreak_p_m, 3) + "," +
              csv_number(a.coverage, 4) + "," + csv_number(a.interpolated, 4) + "," +
-             std::to_string(section.openings.size()) + "\n";
+             std::to_string(section.openings.size()) +
+             (section.plane == SectionPlane::vertical ? ",vertical\n" : ",square\n");
+  };
+  for (const Section& section : results.profile->sections) add(section);
+  for (const Section& section : results.profile->square_sections) add(section);
   return csv;
 }
 

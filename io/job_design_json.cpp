@@ -235,6 +235,7 @@ void add_profiles(const Job& job, nlohmann::ordered_json& root) {
 }
 
 void add_review(const Job& job, nlohmann::ordered_json& root) {
+  if (job.sections != JobSections::vertical) root["sections"] = job.sections == JobSections::both ? "both" : "square";
   if (!job.driven_up_chainage) root["drive"] = "down_chainage";
   for (const ReasonZone& zone : job.zones) {
     nlohmann::ordered_json one{{"from", zone.from_m}, {"to", zone.to_m}};
@@ -289,6 +290,14 @@ void read_job_design(const JsonPlace& place, const fs::path& folder, Job& job) {
   }
   if (place.has("lines")) job.lines = read_lines(place.at("lines"));
   if (place.has("chainage")) job.chainage = read_chainage(place.at("chainage"));
+  if (place.has("sections")) {
+    const std::string planes = place.at("sections").text();
+    if (planes != "vertical" && planes != "square" && planes != "both")
+      place.at("sections").refuse("unknown word", "write vertical, square or both");
+    job.sections = planes == "square" ? JobSections::square
+                   : planes == "both" ? JobSections::both
+                                      : JobSections::vertical;
+  }
   if (place.has("rounds")) job.rounds = read_rounds(place.at("rounds"));
   if (place.has("drive")) {
     const std::string way = place.at("drive").text();

@@ -105,7 +105,7 @@ Job read_job(const fs::path& file) {
   place.only_keys({"adit",      "name",           "client",          "surveyor",   "scans",  "control", "targets",
                    "alignment", "alignment_name", "alignment_start", "profile",    "cant",   "lines",   "chainage",
                    "rounds",    "drive",          "zones",           "tolerances", "before", "face",    "straightedge",
-                   "sectors",   "swell",          "rings",           "options"});
+                   "sections",  "sectors",        "swell",           "rings",      "options"});
   if (place.at("adit").whole_number() != 1)
     place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
   Job job;

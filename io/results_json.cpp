@@ -154,6 +154,7 @@ json circle_json(const SectionCircle& circle) {
 
 json section_json(const Section& section) {
   json one{{"chainage", section.chainage_m}, {"station", section.station_m}};
+  one["plane"] = section.plane == SectionPlane::vertical ? "vertical" : "square";
   const Eigen::Vector3d& axis = section.axis_site;
   one["axis"] = {axis.x(), axis.y(), axis.z()};
   one["openings"] = json::array();
@@ -364,6 +365,8 @@ std::string results_text(const Results& results) {
   if (results.profile) {
     root["sections"] = json::array();
     for (const Section& section : results.profile->sections) root["sections"].push_back(section_json(section));
+    for (const Section& section : results.profile->square_sections)
+      root["square_sections"].push_back(section_json(section));
     for (const ClearanceResult& clearance : results.profile->clearances)
       root["clearance"].push_back(clearance_json(clearance, results));
   }

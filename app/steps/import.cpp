@@ -240,9 +240,11 @@ void make_design(JobState& state) {
   Drive drive;
   drive.up_chainage = state.job.driven_up_chainage;
   for (const JobRound& round : state.job.rounds) drive.rounds.push_back({round.from_m, round.to_m});
-  state.design = DesignTunnel(*state.alignment, state.profiles, state.job.lines, state.job.turned_by_cant)
-                     .driven(drive)
-                     .relative_to(state.results.import.origin.position);
+  state.design =
+      DesignTunnel(*state.alignment, state.profiles, state.job.lines, state.job.turned_by_cant)
+          .driven(drive)
+          .standing(state.job.sections == JobSections::square ? SectionPlane::square : SectionPlane::vertical)
+          .relative_to(state.results.import.origin.position);
 }
 
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {

@@ -20,12 +20,13 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "profile 7|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
+  std::string text = "profile 8|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
   text += state.profiles_text();
   for (const DesignLine& line : state.job.lines)
     text += "|" + line.name + short_number(line.offset_m) + "," + short_number(line.growth_per_m) +
             (line.clearance ? " clear" : "");
   text += state.job.driven_up_chainage ? "" : "|down";
+  if (state.job.sections == JobSections::both) text += "|both planes";
   for (const JobRound& round : state.job.rounds) text += "|" + short_number(round.from_m) + short_number(round.to_m);
   const JobChainage stretch = state.stretch();
   text +=
@@ -33,17 +34,24 @@ std::string depends_on(const JobState& state) {
   return text + "|" + options_text(state.job.options.profiling);
 }
 
-void cut_sections(JobState& state, ProfileResult& result) {
+std::vector<Section> sections_of(const JobState& state, const DeviationMap& map, const DesignTunnel& design) {
   const JobChainage stretch = state.stretch();
   const auto chainages = section_chainages(stretch.from_m, stretch.to_m, stretch.interval_m);
-  result.sections.resize(chainages.size());
+  std::vector<Section> sections(chainages.size());
   parallel_for_each_index(
       chainages.size(),
       [&](std::size_t i) {
-        result.sections[i] = cut_section(*state.map, *state.design, chainages[i], state.job.options.profiling);
-        result.sections[i].axis_site = state.results.import.origin.to_site(result.sections[i].axis_site);
+        sections[i] = cut_section(map, design, chainages[i], state.job.options.profiling);
+        sections[i].axis_site = state.results.import.origin.to_site(sections[i].axis_site);
       },
       1);
+  return sections;
+}
+
+void cut_sections(const JobState& state, ProfileResult& result) {
+  result.sections = sections_of(state, *state.map, *state.design);
+  if (state.square_map)
+    result.square_sections = sections_of(state, *state.square_map, state.design->standing(SectionPlane::square));
 }
 
 constexpr double least_coverage = 0.6;  // volumes of a stretch that was seen less than this are not to be trusted
@@ -125,7 +133,7 @@ void check_clearances(JobState& state, ProfileResult& result, Progress& progress
     for (Intrusion& intrusion : clearance.intrusions) intrusion.deepest_site = origin.to_site(intrusion.deepest_site);
     for (const ClearancePoint& point : clearance.list)
       csv += io::clearance_csv_row(clearance, point, scans[point.scan].name,
-                                   origin.to_site(state.design->alignment().to_site(point.at)),
+                                   origin.to_site(state.design->to_site(point.at)),
                                    state.design->alignment().stations().displayed_m(point.at.s_m));
     if (clearance.points > 0)
       result.findings.push_back(intrusion_finding(clearance, clearance.list.size() == clearance.points));
@@ -137,7 +145,7 @@ void check_clearances(JobState& state, ProfileResult& result, Progress& progress
 
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   const JobChainage stretch = state.stretch();
-  Progress mapping = progress.part(0.7, "mapping deviations");
+  Progress mapping = progress.part(0.5, "mapping deviations");
   MapResult mapped = map_deviations(placed_tiles(state), *state.design, stretch.from_m, stretch.to_m,
                                     state.job.options.profiling, mapping, state.memory_bytes / 4);
   state.map = std::move(mapped.map);
@@ -146,6 +154,12 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   result.points_inside = mapped.points_inside;
   result.points_outside = mapped.points_outside;
   result.findings = std::move(mapped.findings);
+  if (state.job.sections == JobSections::both) {
+    Progress leaning = progress.part(0.2, "mapping deviations square to the axis");
+    state.square_map = map_deviations(placed_tiles(state), state.design->standing(SectionPlane::square), stretch.from_m,
+                                      stretch.to_m, state.job.options.profiling, leaning, state.memory_bytes / 4)
+                           .map;
+  }
   Progress cutting = progress.part(0.1, "cutting sections");
   cut_sections(state, result);
   report_weak_coverage(result, *state.map, mapped.sparse_cells);
@@ -153,6 +167,10 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   check_clearances(state, result, clearing);
   LeftFiles left{"steps/map.bin", "steps/profile.json"};
   if (!result.clearances.empty()) left.emplace_back("clearance.csv");
+  if (state.square_map) {
+    io::write_deviation_map(state.out / "steps" / "map_square.bin", *state.square_map);
+    left.emplace_back("steps/map_square.bin");
+  }
   state.results.profile = std::move(result);
   io::write_deviation_map(state.out / "steps" / "map.bin", *state.map);
   io::write_file_atomically(step_file(state, "profile"), io::step_text(*state.results.profile));
@@ -163,6 +181,8 @@ void take_up(JobState& state, Progress&) {
   ProfileResult result;
   io::read_step_text(io::read_text_file(step_file(state, "profile")), result);
   state.map = io::read_deviation_map(state.out / "steps" / "map.bin");
+  if (state.job.sections == JobSections::both)
+    state.square_map = io::read_deviation_map(state.out / "steps" / "map_square.bin");
   cut_sections(state, result);
   state.results.profile = std::move(result);
 }

@@ -39,7 +39,8 @@ std::string depends_on(const JobState& state) {
 double deviation_at(const DesignTunnel& design, const Eigen::Vector3d& point) {
   const auto at = design.alignment().to_tunnel(point);
   if (!at) return std::nan("");
-  return design.profile_at(at->s_m).nearest({at->x_m, at->z_m}).deviation_m;
+  const TunnelPoint place = design.in_section(*at);
+  return design.profile_at(place.s_m).nearest({place.x_m, place.z_m}).deviation_m;
 }
 
 /// With a design only the stretch to be profiled becomes a surface, end_m more at both ends, so that the mesh is whole

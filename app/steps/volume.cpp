@@ -137,7 +137,7 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   VolumeResult result;
   const DeviationMap& map = *state.map;
   std::optional<MeshInTunnel> mesh;
-  if (state.mesh) mesh.emplace(state.mesh->mesh, *state.design);
+  if (state.mesh && state.design->plane() == SectionPlane::vertical) mesh.emplace(state.mesh->mesh, *state.design);
   const double share = 1.0 / static_cast<double>(state.job.lines.size() + state.job.rounds.size());
   for (const DesignLine& line : state.job.lines) {
     if (line.clearance) continue;  // nothing is measured against it

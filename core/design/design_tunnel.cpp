@@ -108,6 +108,27 @@ DesignTunnel::DesignTunnel(Alignment alignment, std::vector<ProfileFrom> profile
   if (turned_by_cant && !alignment_.cant().empty()) profiles_ = turned(profiles_, alignment_);
 }
 
+DesignTunnel DesignTunnel::standing(SectionPlane plane) const {
+  DesignTunnel tunnel = *this;
+  tunnel.plane_ = plane;
+  return tunnel;
+}
+
+double DesignTunnel::lean_m(double from_m, double to_m) const {
+  constexpr double step_m = 1.0, beyond_profile_m = 5.0;
+  if (plane_ == SectionPlane::vertical) return 0.0;
+  double steepest = 0.0, tallest_m = 0.0;
+  const double begin_m = std::max(from_m - 10.0, alignment_.from_m());
+  const double end_m = std::min(to_m + 10.0, alignment_.to_m());
+  for (double s_m = begin_m; s_m < end_m + step_m; s_m += step_m)
+    steepest = std::max(steepest, std::abs(alignment_.vertical().at(std::min(s_m, end_m)).grade));
+  for (const ProfileFrom& profile : profiles_) {
+    const Eigen::AlignedBox2d& box = profile.profile.box();
+    tallest_m = std::max({tallest_m, std::abs(box.min().y()), std::abs(box.max().y())});
+  }
+  return 2.0 * steepest * (tallest_m + beyond_profile_m);
+}
+
 DesignTunnel DesignTunnel::driven(Drive drive) const {
   DesignTunnel tunnel = *this;
   tunnel.drive_ = std::move(drive);

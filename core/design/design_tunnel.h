@@ -6,6 +6,7 @@
 
 #include "core/design/alignment.h"
 #include "core/design/profile.h"
+#include "core/design/section_plane.h"
 
 namespace adit {
 
@@ -48,6 +49,20 @@ class DesignTunnel {
   const Alignment& alignment() const { return alignment_; }
   const std::vector<ProfileFrom>& profiles() const { return profiles_; }
   const std::vector<DesignLine>& lines() const { return lines_; }
+  SectionPlane plane() const { return plane_; }
+  /// The same design with its profiles standing in other planes.
+  DesignTunnel standing(SectionPlane plane) const;
+  /// A place of vertical sections in the planes of this design.
+  TunnelPoint in_section(const TunnelPoint& vertical) const {
+    return plane_ == SectionPlane::vertical ? vertical : square_from_vertical(alignment_, vertical);
+  }
+  /// By how much the chainage of a point may differ between vertical planes and those of this design, within a stretch.
+  double lean_m(double from_m, double to_m) const;
+  /// The place in the design's frame of a point of one of its sections.
+  Eigen::Vector3d to_site(const TunnelPoint& in_section) const {
+    return plane_ == SectionPlane::vertical ? alignment_.to_site(in_section) : site_of_square(alignment_, in_section);
+  }
+  SliceShape slice_shape(double chainage_m) const { return adit::slice_shape(alignment_, plane_, chainage_m); }
   const Drive& drive() const { return drive_; }
   /// The same design, driven in rounds: where lines with a growth begin to grow. Outside of rounds they do not.
   DesignTunnel driven(Drive drive) const;
@@ -63,6 +78,7 @@ class DesignTunnel {
   std::vector<ProfileFrom> profiles_;
   std::vector<DesignLine> lines_;
   Drive drive_;
+  SectionPlane plane_ = SectionPlane::vertical;
 };
 
 }  // namespace adit

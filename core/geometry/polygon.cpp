@@ -15,6 +15,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 AreaMoment& AreaMoment::operator+=(const AreaMoment& other) {
   area_m2 += other.area_m2;
   moment_m3 += other.moment_m3;
+  moment_z_m3 += other.moment_z_m3;
   return *this;
 }
 
@@ -26,6 +27,7 @@ AreaMoment area_moment(const Polygon& ring) {
     const double twice = cross(a, b);
     sum.area_m2 += twice / 2.0;
     sum.moment_m3 += twice * (a.x() + b.x()) / 6.0;
+    sum.moment_z_m3 += twice * (a.y() + b.y()) / 6.0;
   }
   return sum;
 }

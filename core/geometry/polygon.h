@@ -10,11 +10,12 @@ namespace adit {
 /// A closed ring of points (x, z) [m]; the last point is not the first again.
 using Polygon = std::vector<Eigen::Vector2d>;
 
-/// Signed area [m2] (positive counter-clockwise) and first moment about x = 0 [m3]: the integrals of 1 and of x over
-/// the inside (Green's theorem).
+/// Signed area [m2] (positive counter-clockwise) and first moments about x = 0 and z = 0 [m3]: the integrals of 1, x
+/// and z over the inside (Green's theorem).
 struct AreaMoment {
   double area_m2 = 0.0;
-  double moment_m3 = 0.0;
+  double moment_m3 = 0.0;    ///< of x
+  double moment_z_m3 = 0.0;  ///< of z
   AreaMoment& operator+=(const AreaMoment& other);
 };
 

@@ -96,6 +96,9 @@ void for_each_group(Options& options, const Visit& visit) {
   visit("surface", options.surface);
 }
 
+/// Which planes sections lie in; "both": vertical ones for all numbers, and square ones beside them.
+enum class JobSections { vertical, square, both };
+
 struct Job {
   std::string name;
   std::string client;
@@ -110,6 +113,7 @@ struct Job {
   bool turned_by_cant = false;  ///< profiles turn with the axis's cant
   std::vector<DesignLine> lines{{"excavation", 0.0}};
   std::optional<JobChainage> chainage;
+  JobSections sections = JobSections::vertical;
   std::vector<JobRound> rounds;
   bool driven_up_chainage = true;  ///< rounds, faces and look-out go up-chainage
   std::vector<ReasonZone> zones;

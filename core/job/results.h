@@ -54,6 +54,7 @@ struct ProfileResult {
   std::uint64_t points_inside = 0;
   std::uint64_t points_outside = 0;
   std::vector<Section> sections;
+  std::vector<Section> square_sections;     ///< at the same chainages, where the job asks for both
   std::vector<ClearanceResult> clearances;  ///< one for each clearance line; without their lists of points
   Findings findings;
 };

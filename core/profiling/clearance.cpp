@@ -60,8 +60,9 @@ std::vector<Intrusion> joined(std::map<Cell, Intrusion> cells) {
 ClearanceResult find_intrusions(const std::vector<PlacedTiles>& scans, const ChainageIndex& index,
                                 const DesignTunnel& design, const DesignLine& line, double from_m, double to_m,
                                 double least_range_m, double most_range_m, Progress& progress) {
-  const TunnelFrames frames(design.alignment(), from_m, to_m);
-  const std::vector<TileRef> tiles = index.between(from_m, to_m);
+  const double lean_m = design.lean_m(from_m, to_m);
+  const TunnelFrames frames(design.alignment(), from_m - lean_m, to_m + lean_m);
+  const std::vector<TileRef> tiles = index.between(from_m - lean_m, to_m + lean_m);
   ClearanceResult result;
   result.line = line.name;
   result.line_offset_m = line.offset_m;
@@ -79,7 +80,8 @@ ClearanceResult find_intrusions(const std::vector<PlacedTiles>& scans, const Cha
           visit_slab_of_tile(scans, ref, scan.points->point_count(ref.tile), frames, [&](const SlabPoint& point) {
             const auto range_m = static_cast<double>(point.range_m);
             if (scan.scanner_at_origin && (range_m < least_range_m || range_m > most_range_m)) return;
-            const TunnelPoint& at = point.at;
+            const TunnelPoint at = design.in_section(point.at);
+            if (at.s_m < from_m || at.s_m >= to_m) return;
             const double deviation_m = design.profile_at(at.s_m).nearest({at.x_m, at.z_m}).deviation_m;
             const double inside_m = design.line_at(line, at.s_m).offset_m - deviation_m;
             if (inside_m > 0.0) found[k].push_back({ref.scan, at, inside_m});
@@ -94,8 +96,7 @@ ClearanceResult find_intrusions(const std::vector<PlacedTiles>& scans, const Cha
       }
   }
   result.intrusions = joined(std::move(cells));
-  for (Intrusion& intrusion : result.intrusions)
-    intrusion.deepest_site = design.alignment().to_site(intrusion.deepest.at);
+  for (Intrusion& intrusion : result.intrusions) intrusion.deepest_site = design.to_site(intrusion.deepest.at);
   return result;
 }
 

@@ -58,10 +58,13 @@ struct Mapper {
                          std::size_t last_row) const {
     TileEntries result;
     const PlacedTiles& scan = scans[ref.scan];
+    const double begin_m = map.from_m + static_cast<double>(first_row) * map.step_s_m;
+    const double end_m = map.from_m + static_cast<double>(last_row) * map.step_s_m;
     const auto add = [&](const SlabPoint& point) {
       const double range = static_cast<double>(point.range_m);
       if (scan.scanner_at_origin && (range < options.least_range_m || range > options.most_range_m)) return;
-      const TunnelPoint& at = point.at;
+      const TunnelPoint at = design.in_section(point.at);
+      if (at.s_m < begin_m || at.s_m >= end_m) return;
       const auto row = std::min(static_cast<std::size_t>((at.s_m - map.from_m) / map.step_s_m), last_row - 1);
       const std::size_t profile = profile_of_row[row];
       const ProfileFoot foot = design.profiles()[profile].profile.nearest({at.x_m, at.z_m});
@@ -290,11 +293,12 @@ std::vector<std::size_t> slabs(const Mapper& mapper, const ChainageIndex& index,
 /// Fills the rows [first, last) of the map from the tiles that may reach them.
 void map_slab(MapResult& result, const Mapper& mapper, const ChainageIndex& index, std::size_t first, std::size_t last,
               const Progress& progress) {
-  const std::vector<TileRef> here = index.between(result.map.row_chainage(first) - result.map.step_s_m,
-                                                  result.map.row_chainage(last - 1) + result.map.step_s_m);
-  const TunnelFrames frames(mapper.design.alignment(),
-                            result.map.from_m + static_cast<double>(first) * result.map.step_s_m,
-                            result.map.from_m + static_cast<double>(last) * result.map.step_s_m);
+  const double begin_m = result.map.from_m + static_cast<double>(first) * result.map.step_s_m;
+  const double end_m = result.map.from_m + static_cast<double>(last) * result.map.step_s_m;
+  const double lean_m = mapper.design.lean_m(begin_m, end_m);
+  const double half_step_m = 0.5 * result.map.step_s_m;
+  const std::vector<TileRef> here = index.between(begin_m - half_step_m - lean_m, end_m + half_step_m + lean_m);
+  const TunnelFrames frames(mapper.design.alignment(), begin_m - lean_m, end_m + lean_m);
   std::vector<TileEntries> parts(here.size());
   parallel_for_each_index(
       here.size(),

@@ -11,7 +11,7 @@ namespace {
 
 AreaMoment positive(AreaMoment amount) {
   if (amount.area_m2 >= 0.0) return amount;
-  return {-amount.area_m2, -amount.moment_m3};
+  return {-amount.area_m2, -amount.moment_m3, -amount.moment_z_m3};
 }
 
 }  // namespace

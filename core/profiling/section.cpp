@@ -52,6 +52,7 @@ std::vector<LineOpening> openings_of(const std::vector<OutlinePoint>& points) {
 Section cut_section(const DeviationMap& map, const DesignTunnel& design, double chainage_m,
                     const ProfilingOptions& options) {
   Section section;
+  section.plane = design.plane();
   section.chainage_m = chainage_m;
   section.station_m = design.alignment().stations().displayed_m(chainage_m);
   section.axis_site = design.alignment().to_site({chainage_m, 0.0, 0.0});

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/design/section_plane.h"
 #include "core/profiling/deviation_map.h"
 
 namespace adit {
@@ -59,6 +60,7 @@ struct SectionCircle {
 };
 
 struct Section {
+  SectionPlane plane = SectionPlane::vertical;
   double chainage_m = 0.0;                              ///< internal
   double station_m = 0.0;                               ///< displayed
   Eigen::Vector3d axis_site = Eigen::Vector3d::Zero();  ///< east, north, elevation of the axis

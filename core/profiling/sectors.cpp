@@ -40,10 +40,12 @@ Ray ray_of(const OutlinePoint& point, double offset_m) {
 
 /// Between two rays on the same side of the line.
 struct Slice {
-  double thickness_m, curvature_per_m;
+  double thickness_m;
+  SliceShape shape;
   double volume(const Polygon& ring) const {
     const AreaMoment amount = area_moment(ring);
-    return std::abs(thickness_m * (amount.area_m2 - curvature_per_m * amount.moment_m3));
+    return std::abs(thickness_m * (shape.per_area * amount.area_m2 - shape.per_x * amount.moment_m3 -
+                                   shape.per_z * amount.moment_z_m3));
   }
 };
 
@@ -69,7 +71,7 @@ std::vector<SectorVolume> of_row(const DeviationMap& map, std::size_t r, const D
   const std::vector<MapCell> row(map.cells.begin() + static_cast<std::ptrdiff_t>(r * map.columns),
                                  map.cells.begin() + static_cast<std::ptrdiff_t>((r + 1) * map.columns));
   const Outline outline = outline_of(row, ProfileStretch(design.profile_at(chainage)), map.step_q_m, gap_m);
-  const Slice slice{thickness_m, design.alignment().horizontal().at(chainage).curvature_per_m};
+  const Slice slice{thickness_m, design.slice_shape(chainage)};
   const std::size_t n = outline.points.size();
   const double offset_m = design.line_at(line, chainage).offset_m;
   for (std::size_t i = 0; i < n; ++i) {

@@ -82,7 +82,7 @@ SliceSums slice_sums(const DeviationMap& map, std::size_t r, const DesignTunnel&
   const std::vector<MapCell> row(map.cells.begin() + static_cast<std::ptrdiff_t>(r * map.columns),
                                  map.cells.begin() + static_cast<std::ptrdiff_t>((r + 1) * map.columns));
   const Outline outline = outline_of(row, line.stretch, map.step_q_m, options.gap_m);
-  const double k = design.alignment().horizontal().at(chainage).curvature_per_m;
+  const SliceShape shape = design.slice_shape(chainage);
   std::optional<LinePolygon> grown;
   // One rock for the whole slice, and each of the profiles that hold in it for its own part.
   const std::vector<double> bounds = parts_of(design, begin, end);
@@ -94,7 +94,9 @@ SliceSums slice_sums(const DeviationMap& map, std::size_t r, const DesignTunnel&
     if (wanted.growth_per_m != 0.0) grown = line_polygon(*prepared.profile, design.line_at(wanted, middle_m));
     const LinePolygon& there = grown ? *grown : prepared.line;
     const SliceAmounts amounts = slice_amounts(outline.points, there);
-    const auto volume = [&](const AreaMoment& a) { return length_m * (a.area_m2 - k * a.moment_m3); };
+    const auto volume = [&](const AreaMoment& a) {
+      return length_m * (shape.per_area * a.area_m2 - shape.per_x * a.moment_m3 - shape.per_z * a.moment_z_m3);
+    };
     add_weighted(sums.amounts, 1.0,
                  {volume(there.design), volume(amounts.area), volume(amounts.over), volume(amounts.under)});
   }

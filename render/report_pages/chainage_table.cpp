@@ -34,6 +34,37 @@ std::string known(double value, double factor, int decimals) {
   return std::isfinite(value) ? fixed(factor * value, decimals) : std::string("\u2013");
 }
 
+/// Both planes at the same chainages, with what the square one has more.
+void add_both_planes(PageFlow& flow, const ProfileResult& profile) {
+  if (profile.square_sections.empty()) return;
+  flow.start("Sections: both planes side by side");
+  Table table{{{"chainage m", 20, true},
+               {"excavated m\u00b2, vertical", 24, true},
+               {"square", 20, true},
+               {"difference", 20, true},
+               {"over m\u00b2, vertical", 20, true},
+               {"square", 18, true},
+               {"difference", 20, true},
+               {"under m\u00b2, vertical", 20, true},
+               {"square", 18, true}},
+              {},
+              2.3};
+  for (std::size_t i = 0; i < profile.sections.size() && i < profile.square_sections.size(); ++i) {
+    if (profile.sections[i].lines.empty() || profile.square_sections[i].lines.empty()) continue;
+    const SectionAreas& v = profile.sections[i].lines.front();
+    const SectionAreas& s = profile.square_sections[i].lines.front();
+    table.rows.push_back({fixed(profile.sections[i].chainage_m, 2), fixed(v.area_m2, 2), fixed(s.area_m2, 2),
+                          with_sign(s.area_m2 - v.area_m2, 2), fixed(v.overbreak_m2, 2), fixed(s.overbreak_m2, 2),
+                          with_sign(s.overbreak_m2 - v.overbreak_m2, 2), fixed(v.underbreak_m2, 2),
+                          fixed(s.underbreak_m2, 2)});
+  }
+  flow.table(table);
+  flow.paragraph(
+      "The profile stands in the section's plane in both: vertical and square to the axis in plan, or square "
+      "to the axis in space. All other pages are of vertical planes.",
+      colours::grey, 2.3);
+}
+
 /// The best circles of sections whose profile is one.
 void add_circles(PageFlow& flow, const std::vector<Section>& sections) {
   Table table{{{"chainage m", 20, true},
@@ -76,7 +107,9 @@ void add_chainage_pages(PageFlow& flow, const ReportContent& content) {
   flow.paragraph("Against the line: " + (first != nullptr ? first->line : std::string("(none)")) +
                      ". Over- and underbreak outside and inside of it; p is the arc length along the design line from "
                      "the crown, right "
-                     "positive looking up-chainage. Sections measured to less than 80 % are marked red.",
+                     "positive looking up-chainage. Section planes: " +
+                     std::string(words_of(profile.sections.front().plane)) +
+                     ". Sections measured to less than 80 % are marked red.",
                  colours::black, 2.4);
   Table table{{{"chainage m", 17, true},
                {"station m", 17, true},
@@ -100,6 +133,7 @@ void add_chainage_pages(PageFlow& flow, const ReportContent& content) {
                      "; left out inside the line (equipment, people, muck) " + grouped(profile.points_inside) +
                      "; left out far outside it " + grouped(profile.points_outside) + ".",
                  colours::grey, 2.3);
+  add_both_planes(flow, profile);
   add_circles(flow, profile.sections);
 }
 

@@ -229,9 +229,12 @@ void add_volume_pages(PageFlow& flow, const ReportContent& content) {
   const VolumeResult& volume = *content.results->volume;
   const Volume& first = volume.lines.front();
   flow.start("Volumes");
-  flow.paragraph("Chainage " + fixed(first.from_m, 2) + " to " + fixed(first.to_m, 2) + ", " +
-                     fixed(first.to_m - first.from_m, 2) + " m.",
-                 colours::black, 2.8, true);
+  flow.paragraph(
+      "Chainage " + fixed(first.from_m, 2) + " to " + fixed(first.to_m, 2) + ", " +
+          fixed(first.to_m - first.from_m, 2) + " m." +
+          (content.design != nullptr ? " Profiles stand " + std::string(words_of(content.design->plane())) + "."
+                                     : std::string()),
+      colours::black, 2.8, true);
   add_methods(flow, volume.lines);
   add_quality(flow, volume.lines);
   if (content.results->profile && !content.results->profile->sections.empty()) {
