@@ -81,11 +81,11 @@ void check_profiles(const JobState& state) {
     if (distance <= farthest_profile_m) continue;
     char words[100];
     std::snprintf(words, sizeof words, "the profile lies %.0f m from the axis", distance);
-    const JobProfile& profile = state.job.profiles[i];
-    throw Error(words, profile.file.empty() ? job_key(state, "profile") : (state.folder / profile.file).string(),
+    const bool one_each = state.profiles.size() == state.job.profiles.size() && !state.job.profiles[i].file.empty();
+    throw Error(words, one_each ? (state.folder / state.job.profiles[i].file).string() : job_key(state, "profile"),
                 "draw it about the axis: offsets and heights are counted from there");
   }
-  if (state.job.profiles.front().interpolated && state.job.profiles.front().from_m <= -1e9)
+  if (state.profiles.front().interpolated && state.profiles.front().from_m <= -1e9)
     throw Error("a profile that changes into the next one needs its \"from\"", job_key(state, "profile"),
                 "write the chainage from which it changes");
   if (state.stretch().from_m >= state.profiles.front().from_m - tolerance_m) return;

@@ -102,6 +102,22 @@ void read_control(JobState& state) {
   add(file.findings, state.input_findings);
 }
 
+void read_profiles(JobState& state) {
+  for (std::size_t i = 0; i < state.job.profiles.size(); ++i) {
+    const JobProfile& profile = state.job.profiles[i];
+    std::vector<ProfileFrom> read;
+    if (profile.library.empty())
+      read = io::read_profiles(state.folder / profile.file, profile.layer, profile.sizes, profile.from_m,
+                               profile.interpolated);
+    else
+      read = {{profile.from_m, io::library_profile(profile.library, profile.sizes), profile.interpolated}};
+    for (ProfileFrom& one : read) state.profiles.push_back(std::move(one));
+  }
+  // A file of sections may change from each to the next: the last of all has none to change into.
+  const bool of_sections = state.profiles.size() > state.job.profiles.size();
+  if (of_sections && !state.profiles.empty()) state.profiles.back().interpolated = false;
+}
+
 void read_rings(JobState& state) {
   if (!state.job.rings) return;
   if (!state.alignment)
@@ -176,12 +192,7 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
   state.folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   state.out = out.empty() ? state.folder / "out" : out;
   read_alignment(state);
-  for (const JobProfile& profile : state.job.profiles)
-    state.profiles.push_back({profile.from_m,
-                              profile.library.empty()
-                                  ? io::read_profile(state.folder / profile.file, profile.layer, profile.sizes)
-                                  : io::library_profile(profile.library, profile.sizes),
-                              profile.interpolated});
+  read_profiles(state);
   read_control(state);
   read_rings(state);
   read_tolerances(state);

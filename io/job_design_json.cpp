@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/foundation/error.h"
+#include "io/file_ending.h"
 #include "io/text_place.h"
 
 namespace adit::io {
@@ -42,7 +43,10 @@ std::vector<JobProfile> read_profiles(const JsonPlace& place, const fs::path& fo
       one.refuse("profiles must stand in order of \"from\"", "give every profile but the first a larger \"from\"");
     profiles.push_back(profile);
   }
-  if (!profiles.empty() && profiles.back().interpolated)
+  const auto is_landxml = [](const JobProfile& profile) {
+    return lower_ending(profile.file) == ".xml" || lower_ending(profile.file) == ".landxml";
+  };
+  if (!profiles.empty() && profiles.back().interpolated && !is_landxml(profiles.back()))
     places.back().refuse("nothing follows the last profile", "leave its \"to_next\" out");
   if (profiles.empty()) place.refuse("at least one profile is needed", "name a file");
   return profiles;

@@ -3,8 +3,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "core/design/profile.h"
+#include "core/design/design_tunnel.h"
 #include "io/profile_json.h"
 
 namespace adit::io {
@@ -13,5 +14,10 @@ namespace adit::io {
 /// arcs, whose `sizes` may be given. Throws Error for other endings, for a layer or sizes that the format does not
 /// have, and for what the readers refuse.
 Profile read_profile(const std::filesystem::path& file, const std::string& layer = {}, const ProfileSizes& sizes = {});
+
+/// The same as profiles along the axis: one that holds from from_m, or, of LandXML (.xml), every design section that
+/// `layer` names, each from its own station. `interpolated`: each changes into the next one, as into what follows them.
+std::vector<ProfileFrom> read_profiles(const std::filesystem::path& file, const std::string& layer,
+                                       const ProfileSizes& sizes, double from_m, bool interpolated);
 
 }  // namespace adit::io

@@ -174,7 +174,8 @@ std::string section_title(const Section& section) {
 
 void draw_section(Canvas& canvas, const Rect& rect, const Section& section, const std::vector<SectionLine>& lines) {
   canvas.text({rect.left, rect.top}, section_title(section), {.size_mm = 3.0, .bold = true});
-  canvas.text({rect.right(), rect.top + 0.8}, words_of(section.plane),
+  canvas.text({rect.right() - 14.0, rect.top + 0.8},
+              section.plane == SectionPlane::vertical ? "vertical plane" : "square to the axis in space",
               {.size_mm = text_mm - 0.1, .colour = colours::grey, .across = Across::right});
   canvas.text({rect.left, rect.top + 4.2},
               "looking up-chainage, metres   axis E " + fixed(section.axis_site.x(), 3) + "  N " +
