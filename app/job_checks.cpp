@@ -7,6 +7,7 @@
 
 #include "app/scan_places.h"
 #include "core/foundation/error.h"
+#include "core/foundation/options.h"
 #include "core/profiling/overbreak.h"
 
 namespace adit::app {
@@ -25,9 +26,10 @@ void check_range(const JobState& state, const std::string& key, double from_m, d
   const Alignment& axis = *state.alignment;
   if (from_m >= axis.from_m() - tolerance_m && to_m <= axis.to_m() + tolerance_m) return;
   char words[200];
-  std::snprintf(words, sizeof words, "%.3f to %.3f lies outside the axis \"%s\", which runs from %.3f to %.3f", from_m,
-                to_m, axis.name().substr(0, 80).c_str(), axis.from_m(), axis.to_m());
-  throw Error(words, job_key(state, key), "choose chainages on the axis");
+  std::snprintf(words, sizeof words, " lies outside the axis \"%s\", which runs from %.3f to %.3f",
+                axis.name().substr(0, 80).c_str(), axis.from_m(), axis.to_m());
+  throw Error(short_number(from_m) + " to " + short_number(to_m) + words, job_key(state, key),
+              "choose chainages on the axis");
 }
 
 void check_near_axis(const JobState& state, const Eigen::Vector3d& place, const std::string& what,
@@ -76,6 +78,9 @@ void check_places(const JobState& state) {
 }
 
 void check_profiles(const JobState& state) {
+  if (state.profiles.back().from_m > state.alignment->to_m() + tolerance_m)
+    throw Error("a profile holds from beyond the end of the axis", job_key(state, "profile"),
+                "choose a \"from\" on the axis, or leave that profile out");
   for (std::size_t i = 0; i < state.profiles.size(); ++i) {
     const double distance = state.profiles[i].profile.box().exteriorDistance(Eigen::Vector2d(0.0, 0.0));
     if (distance <= farthest_profile_m) continue;
@@ -130,7 +135,7 @@ void check_tolerance_names(const JobState& state) {
   if (!state.tolerances) return;
   const auto& rows = state.tolerances->rows;
   const auto& sectors = state.job.sectors;
-  const std::string set = "the tolerances " + state.tolerances->name;
+  const std::string set = "the tolerances \"" + state.tolerances->name + "\"";
   for (const ToleranceRow& row : rows)
     if (row.sector != "any" &&
         std::none_of(sectors.begin(), sectors.end(), [&](const Sector& sector) { return sector.name == row.sector; }))
@@ -173,6 +178,8 @@ void check_design(const JobState& state) {
   check_tolerance_names(state);
   if (!state.alignment) return;
   if (job.chainage) check_range(state, "chainage", job.chainage->from_m, job.chainage->to_m);
+  for (std::size_t i = 0; i < job.zones.size(); ++i)
+    check_range(state, "zones[" + std::to_string(i) + "]", job.zones[i].from_m, job.zones[i].to_m);
   for (std::size_t i = 0; i < job.rounds.size(); ++i)
     check_range(state, "rounds[" + std::to_string(i) + "]", job.rounds[i].from_m, job.rounds[i].to_m);
   check_places(state);

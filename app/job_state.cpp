@@ -47,9 +47,9 @@ void expect_inputs_apart(const JobState& state, const std::vector<std::string>& 
     const auto refuse = [&] {
       throw Error("a run would write over this input", input.string(), "move it, or choose another folder with --out");
     };
-    for (const char* name :
-         {"mesh.ply", "registration.csv", "sections.csv", "volumes.csv", "sectors.csv", "rings.csv", "clearance.csv",
-          "zones.csv", "circles.csv", "face.csv", "layer.csv", "tolerances.csv", "results.json", "report.pdf", ".lock"})
+    for (const char* name : {"mesh.ply", "map.png", "registration.csv", "sections.csv", "volumes.csv", "sectors.csv",
+                             "rings.csv", "clearance.csv", "zones.csv", "circles.csv", "face.csv", "layer.csv",
+                             "tolerances.csv", "results.json", "report.pdf", ".lock"})
       if (real(state.out / name) == input) refuse();
     for (const char* name : {"import", "steps", "report", "figures"}) {
       const fs::path below = input.lexically_relative(real(state.out / name));
@@ -140,7 +140,7 @@ void read_tolerances(JobState& state) {
 }
 
 /// The earlier job must have been run; whether it still holds is seen when it is taken up.
-void look_at_before(JobState& state) {
+void look_at_before(JobState& state, Progress& progress) {
   if (!state.job.before) return;
   const fs::path file = before_file(state);
   std::error_code ignored;
@@ -150,10 +150,23 @@ void look_at_before(JobState& state) {
   if (real(before_out(state)) == real(state.out))
     throw Error("the earlier job's results and this job's would lie in one folder", real(state.out).string(),
                 "give one of them another with --out, and name the earlier one's in before.out");
-  const fs::path key = before_out(state) / "steps" / "register.key";
+  const fs::path out = before_out(state);
+  const fs::path key = out / "steps" / "register.key";
   if (!fs::exists(key, ignored))
-    throw Error("the earlier job has not been run", file.string(), "run it first: adit register " + file.string());
-  state.before_key = io::read_text_file(key);
+    throw Error("the earlier job has not been run", file.string(),
+                "run it first: adit register " + file.string() +
+                    (state.job.before->out.empty() ? "" : " --out " + out.string()));
+  // All that its poses rest on, so that nothing is taken up when any of it has changed or is damaged.
+  const JobState before = open_job(file, out, progress, Earlier::left_alone);
+  state.before_key = io::read_text_file(key) + "|" + io::sha256_of_file(file, progress);
+  for (const auto& [name, sha256] : before.input_sha256) state.before_key += "|" + name + sha256;
+  std::vector<fs::path> left{out / "steps" / "register.json"};
+  if (fs::is_directory(out / "import", ignored))
+    for (const auto& entry : fs::directory_iterator(out / "import")) left.push_back(entry.path());
+  std::sort(left.begin(), left.end());
+  for (const fs::path& one : left)
+    state.before_key += "|" + one.filename().string() +
+                        (fs::exists(one, ignored) ? std::to_string(fs::file_size(one, ignored)) : " is gone");
 }
 
 }  // namespace
@@ -184,7 +197,7 @@ std::string JobState::profiles_text() const {
   return text;
 }
 
-JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progress) {
+JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progress, Earlier earlier) {
   const fs::path file = fs::is_directory(job_file) ? job_file / "job.json" : job_file;
   JobState state;
   state.file = file;
@@ -196,7 +209,7 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
   read_control(state);
   read_rings(state);
   read_tolerances(state);
-  look_at_before(state);
+  if (earlier == Earlier::looked_at) look_at_before(state, progress);
   if (!state.job.targets.empty()) state.targets = io::read_targets_csv(state.folder / state.job.targets);
   look_at_cant(state);
   check_job(state);

@@ -68,6 +68,9 @@ std::filesystem::path before_out(const JobState& state);
 
 /// Reads job.json and the small files it names, and hashes all of them. Throws Error for anything broken, before any
 /// long work begins: a chainage outside the axis, a profile that crosses itself, a target without a scan.
-JobState open_job(const std::filesystem::path& job_file, const std::filesystem::path& out, Progress& progress);
+/// earlier: whether the earlier job is opened, too, to see what this one's comparison rests on.
+enum class Earlier { looked_at, left_alone };
+JobState open_job(const std::filesystem::path& job_file, const std::filesystem::path& out, Progress& progress,
+                  Earlier earlier = Earlier::looked_at);
 
 }  // namespace adit::app

@@ -49,6 +49,7 @@ json layer_json(const LayerResult& layer) {
 }
 
 json direction_json(const UndulationDirection& direction) {
+  if (direction.places == 0) return nullptr;
   return {{"places", direction.places},         {"max_depth_m", direction.max_depth_m},
           {"chainage", direction.chainage_m},   {"p_m", direction.p_m},
           {"depth_95_m", direction.depth_95_m}, {"max_ratio", direction.max_ratio},

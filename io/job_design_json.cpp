@@ -12,6 +12,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A name that fits on a sheet.
+std::string name_of(const JsonPlace& place, const std::string& what) {
+  constexpr std::size_t most_letters = 100;
+  const std::string name = place.text();
+  if (name.find_first_not_of(" \t") == std::string::npos)
+    place.refuse(what + " needs a name", "every number names what it is about: write one");
+  if (name.size() > most_letters) place.refuse("the name is longer than 100 letters", "write a shorter one");
+  return name;
+}
+
 std::vector<JobProfile> read_profiles(const JsonPlace& place, const fs::path& folder) {
   std::vector<JobProfile> profiles;
   if (place.is_text()) {
@@ -27,7 +37,7 @@ std::vector<JobProfile> read_profiles(const JsonPlace& place, const fs::path& fo
     if (one.has("file") == one.has("library"))
       one.refuse("a profile is a \"file\" or one of the \"library\"", "write one of the two");
     if (one.has("file")) profile.file = existing_file(one.at("file"), folder);
-    profile.library = one.text_or("library", "");
+    if (one.has("library")) profile.library = name_of(one.at("library"), "a profile");
     if (one.has("sizes"))
       for (const std::string& name : one.at("sizes").keys())
         profile.sizes[name] = one.at("sizes").at(name).number_between(-1000.0, 1000.0, "m");
@@ -57,9 +67,7 @@ std::vector<DesignLine> read_lines(const JsonPlace& place) {
   std::set<std::string> names;
   for (const JsonPlace& one : place.items()) {
     one.only_keys({"name", "offset", "look_out_per_m", "clearance"});
-    if (one.at("name").text().empty())
-      one.at("name").refuse("a line needs a name", "every number names its line: write one");
-    lines.push_back({one.at("name").text(), one.at("offset").number_between(-10.0, 10.0, "m")});
+    lines.push_back({name_of(one.at("name"), "a line"), one.at("offset").number_between(-10.0, 10.0, "m")});
     if (one.has("look_out_per_m"))
       lines.back().growth_per_m = one.at("look_out_per_m").number_between(0.0, 0.5, "m per m");
     if (one.has("clearance")) lines.back().clearance = one.at("clearance").yes_or_no();
@@ -97,6 +105,7 @@ std::vector<JobRound> read_rounds(const JsonPlace& place) {
     round.to_m = one.at("to").number();
     if (!(round.to_m > round.from_m))
       one.refuse("\"to\" must be greater than \"from\"", "chainage increases along the axis");
+    if (round.to_m - round.from_m < 0.05) one.refuse("the round is shorter than 5 cm", "write its whole length");
     if (one.has("drilled")) round.drilled_m = one.at("drilled").number_between(0.1, 30.0, "m");
     for (const JobRound& other : rounds) {
       if (other.number == round.number) one.refuse("two rounds have this number", "number every round once");
@@ -112,7 +121,7 @@ std::vector<Sector> read_sectors(const JsonPlace& place) {
   std::vector<Sector> sectors;
   for (const JsonPlace& one : place.items()) {
     one.only_keys({"name", "from_deg", "to_deg"});
-    sectors.push_back({one.at("name").text(), one.at("from_deg").number_between(-180.0, 180.0, "degrees"),
+    sectors.push_back({name_of(one.at("name"), "a sector"), one.at("from_deg").number_between(-180.0, 180.0, "degrees"),
                        one.at("to_deg").number_between(-180.0, 180.0, "degrees")});
   }
   try {
@@ -137,10 +146,12 @@ std::vector<ReasonZone> read_zones(const JsonPlace& place) {
     if (one.has("from_deg")) {
       zone.from_deg = one.at("from_deg").number_between(-180.0, 180.0, "degrees");
       zone.to_deg = one.at("to_deg").number_between(-180.0, 180.0, "degrees");
-      if (zone.from_deg == zone.to_deg) one.refuse("the zone is empty", "write different degrees");
+      if (zone.from_deg == zone.to_deg || (zone.from_deg == 180.0 && zone.to_deg == -180.0))
+        one.refuse("the zone is empty", "write different degrees");
     }
     zone.reason = one.at("reason").text();
     zone.note = one.text_or("note", "");
+    if (zone.note.size() > 500) one.at("note").refuse("the note is longer than 500 letters", "write a shorter one");
     const auto& codes = reason_codes();
     if (std::find(codes.begin(), codes.end(), zone.reason) == codes.end())
       one.at("reason").refuse("unknown reason", "write technical, geological, look_out or other");
@@ -164,11 +175,11 @@ JobTolerances read_job_tolerances(const JsonPlace& place, const fs::path& folder
   if (place.has("file") == place.has("library"))
     place.refuse("tolerances are a \"file\" or one of the \"library\"", "write one of the two");
   if (place.has("file")) tolerances.file = existing_file(place.at("file"), folder);
-  tolerances.library = place.text_or("library", "");
+  if (place.has("library")) tolerances.library = name_of(place.at("library"), "a set");
   if (!place.has("rock_classes")) return tolerances;
   for (const JsonPlace& one : place.at("rock_classes").items()) {
     one.only_keys({"from", "class"});
-    tolerances.rock_classes.push_back({one.at("from").number(), one.at("class").text()});
+    tolerances.rock_classes.push_back({one.at("from").number(), name_of(one.at("class"), "a rock class")});
     const auto& classes = tolerances.rock_classes;
     if (classes.size() > 1 && classes.back().from_m <= classes[classes.size() - 2].from_m)
       one.refuse("rock classes must stand in order of \"from\"", "give every class a larger \"from\"");

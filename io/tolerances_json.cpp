@@ -33,6 +33,8 @@ ToleranceSet set_of(const JsonPlace& place) {
   ToleranceSet set;
   set.name = place.at("name").text();
   set.source = place.at("source").text();
+  if (set.name.size() > 100 || set.source.size() > 300)
+    place.refuse("the name or the source is longer than fits on a sheet", "write at most 100 and 300 letters");
   if (set.name.empty()) place.at("name").refuse("a set needs a name", "every verdict names it: write one");
   if (set.source.empty()) place.at("source").refuse("a set needs its source", "name the contract or the standard");
   set.verified_by = place.text_or("verified_by", "");

@@ -24,7 +24,7 @@ bool wanted(const JobState& state) {
 
 std::string depends_on(const JobState& state) {
   const Job& job = state.job;
-  std::string text = "compare 1|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "");
+  std::string text = "compare 2|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "");
   if (job.before)
     text += "|" + short_number(job.before->layer.minimum_m) + "," + short_number(job.before->layer.nominal_m);
   if (job.straightedge)
@@ -49,6 +49,29 @@ std::shared_ptr<JobState> taken_up(const JobState& state, Progress& progress) {
     throw Error("the earlier job does not stand in the site: nothing ties it to control", before->file.string(),
                 "give it control points, or a pose, and run it again");
   return before;
+}
+
+/// What asks for a person in the earlier job asks for one here.
+void carry_decisions(const JobState& before, CompareResult& result) {
+  for (const Findings* findings : {&before.results.import.findings, &before.results.registration.findings})
+    for (const Finding& finding : *findings)
+      if (finding.severity == Severity::decision)
+        result.findings.push_back({Severity::decision, "earlier job, " + finding.subject, finding.words, finding.mend});
+}
+
+/// An edge that could be laid nowhere, or that shows more than is permitted.
+void judge(const UndulationDirection& direction, const UndulationResult& undulation, const std::string& way,
+           CompareResult& result) {
+  char words[200];
+  if (direction.places == 0) {
+    std::snprintf(words, sizeof words, "%.2f m %s were measured without a gap nowhere: it says nothing",
+                  undulation.straightedge_m, way.c_str());
+    result.findings.push_back({Severity::warning, "straightedge", words, "use a shorter one, or scan more"});
+  } else if (undulation.limit_ratio > 0.0 && direction.over_limit > 0.0) {
+    std::snprintf(words, sizeof words, "%.1f %% of the places %s exceed the limit of %.3f; the greatest ratio is %.3f",
+                  100.0 * direction.over_limit, way.c_str(), undulation.limit_ratio, direction.max_ratio);
+    result.findings.push_back({Severity::warning, "straightedge", words, "look at \"undulation\" in results.json"});
+  }
 }
 
 /// Scans of the earlier job in this job's local frame.
@@ -162,6 +185,7 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
     Progress reading = progress.part(0.1, "taking up the earlier job");
     const auto before = taken_up(state, reading);
     result.before = before->job.name;
+    carry_decisions(*before, result);
     const std::vector<PlacedTiles> scans = placed_here(*before, state);
     Progress comparing = progress.part(0.5, "comparing with the earlier job");
     if (state.job.face) {
@@ -172,9 +196,12 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
     io::write_deviation_map(state.out / "steps" / "change.bin", *state.change);
     left.emplace_back("steps/change.bin");
   }
-  if (state.job.straightedge)
+  if (state.job.straightedge) {
     result.undulation =
         undulation(*state.map, *state.design, state.job.straightedge->length_m, state.job.straightedge->limit_ratio);
+    judge(result.undulation.along, result.undulation, "along the axis", result);
+    judge(result.undulation.around, result.undulation, "around the profile", result);
+  }
   state.results.compare = std::move(result);
   io::write_file_atomically(step_file(state, "compare"), io::step_text(*state.results.compare));
   return left;

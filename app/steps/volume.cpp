@@ -19,7 +19,7 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "volume 8|" + state.keys.at("profile");
+  std::string text = "volume 9|" + state.keys.at("profile");
   if (const auto surface = state.keys.find("surface"); surface != state.keys.end()) text += "|" + surface->second;
   for (const JobRound& round : state.job.rounds)
     text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +
@@ -90,6 +90,9 @@ void add_round(JobState& state, const JobRound& round, const std::optional<MeshI
   volume.volume = compute_volume(map, *state.design, state.job.lines.front(), from, to, state.stretch().interval_m,
                                  state.results.registration, state.job.options.profiling, progress);
   volume.pull_m = round.to_m - round.from_m;
+  if (round.drilled_m > 0.0 && volume.pull_m > 1.2 * round.drilled_m)
+    result.findings.push_back({Severity::warning, subject, "is much longer than it was drilled: its pull is over 120 %",
+                               "check \"drilled\" and the ends of the round"});
   volume.loose_m3 = state.job.swell * volume.volume.slices.excavated_m3;
   volume.review =
       review_round(map, *state.design, state.job.lines.front(), from, to, state.job.options.profiling.gap_m);
@@ -102,7 +105,7 @@ void add_zones(const JobState& state, VolumeResult& result) {
   result.zones = zone_volumes(*state.map, *state.design, state.job.lines.front(), state.job.zones,
                               state.job.options.profiling.gap_m);
   for (std::size_t i = 0; i < result.zones.size(); ++i)
-    if (result.zones[i].zone.to_m <= result.zones[i].zone.from_m)
+    if (result.zones[i].amounts.surface_m2 <= 0.0)
       result.findings.push_back({Severity::warning, "zone " + std::to_string(i + 1),
                                  "lies outside the profiled chainage and has no volume", "extend \"chainage\""});
 }
@@ -129,6 +132,10 @@ void add_tolerances(const JobState& state, VolumeResult& result) {
   result.tolerances = {set.name, set.source, set.verified_by,
                        check_tolerances(*state.map, *state.design, state.job.lines.front(), state.job.sectors, set,
                                         state.job.tolerances->rock_classes)};
+  if (result.tolerances.checks.empty())
+    result.findings.push_back({Severity::warning, "tolerances " + set.name,
+                               "none of its rows is for a rock class of this stretch: nothing was checked",
+                               "state \"rock_classes\", or add a row for \"any\""});
   for (const ToleranceCheck& check : result.tolerances.checks)
     if (!check.kept()) result.findings.push_back(tolerance_finding(check, state.job.lines.front()));
 }

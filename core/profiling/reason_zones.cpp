@@ -47,17 +47,18 @@ void check_zones(const std::vector<ReasonZone>& zones) {
 std::vector<ZoneVolume> zone_volumes(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line,
                                      const std::vector<ReasonZone>& zones, double gap_m) {
   std::vector<ZoneVolume> volumes;
-  for (ReasonZone zone : zones) {
-    zone.from_m = std::max(zone.from_m, map.from_m);
-    zone.to_m = std::min(zone.to_m, map.to_m);
-    SectorVolume amounts;
-    if (zone.to_m > zone.from_m) {
+  for (const ReasonZone& zone : zones) {
+    ZoneVolume volume{zone, {}};
+    const double from_m = std::max(zone.from_m, map.from_m), to_m = std::min(zone.to_m, map.to_m);
+    if (to_m > from_m) {
       std::vector<Sector> sectors{{zone.reason, zone.from_deg, zone.to_deg}};
       if (!is_whole(zone)) sectors.push_back({"rest", zone.to_deg, zone.from_deg});
-      amounts = sector_volumes(map, design, line, sectors, zone.from_m, zone.to_m, gap_m).front();
+      volume.zone.from_m = from_m;
+      volume.zone.to_m = to_m;
+      volume.amounts = sector_volumes(map, design, line, sectors, from_m, to_m, gap_m).front();
     }
-    amounts.name = zone.reason;
-    volumes.push_back({zone, amounts});
+    volume.amounts.name = zone.reason;
+    volumes.push_back(std::move(volume));
   }
   return volumes;
 }

@@ -28,7 +28,7 @@ const std::vector<std::string>& reason_codes();
 void check_zones(const std::vector<ReasonZone>& zones);
 
 struct ZoneVolume {
-  ReasonZone zone;  ///< within the map
+  ReasonZone zone;  ///< cut to the map where it reaches it
   SectorVolume amounts;
 };
 

@@ -130,8 +130,13 @@ void check_sectors(const std::vector<Sector>& sectors) {
   for (const Sector& sector : sectors) {
     if (sector.name.empty() || !names.insert(sector.name).second)
       throw Error("a sector needs a name of its own", {}, "name every sector");
-    begins.push_back(sector.from_deg);
-    ends.push_back(sector.to_deg);
+    if (sector.name == "any")
+      throw Error("a sector is named \"any\", which stands for all of them", {}, "name it otherwise");
+    if (sector.from_deg == sector.to_deg)
+      throw Error("the sector \"" + sector.name + "\" is empty", {}, "write different degrees");
+    const auto one_down = [](double degrees) { return degrees == -180.0 ? 180.0 : degrees; };  // both are straight down
+    begins.push_back(one_down(sector.from_deg));
+    ends.push_back(one_down(sector.to_deg));
   }
   std::sort(begins.begin(), begins.end());
   std::sort(ends.begin(), ends.end());

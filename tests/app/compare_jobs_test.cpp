@@ -1,6 +1,7 @@
 // A job against an earlier one of the same tunnel.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -87,6 +88,22 @@ TEST(CompareJobsSlow, AnEarlierJobThatHasChangedIsRefused) {
   } catch (const Error& error) {
     EXPECT_NE(error.what_is_wrong().find("has changed since it was run"), std::string::npos) << error.what_is_wrong();
   }
+}
+
+TEST(CompareJobsSlow, WhatTheEarlierJobLeavesOpenIsOpenHere) {
+  const TemporaryFolder folder;
+  two_demos(folder.path());
+  auto job = nlohmann::json::parse(io::read_text_file(folder / "before" / "job.json"));
+  job.erase("control");
+  job.erase("targets");
+  std::ofstream(folder / "before" / "job.json") << job.dump(1);
+  const auto before = tests::run(folder / "before", {}, "register");
+  ASSERT_TRUE(needs_a_person(before->results)) << "nothing holds it but guesses";
+  const auto state = tests::run(folder.path(), {}, "compare");
+  const Findings& findings = state->results.compare->findings;
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
+    return f.severity == Severity::decision && f.subject.starts_with("earlier job, ");
+  }));
 }
 
 }  // namespace
