@@ -193,6 +193,9 @@ std::shared_ptr<JobState> run_job(const fs::path& job_file, const RunOptions& op
     } else if (step.name == options.last_step && !state->has_design()) {
       throw Error("the job has no alignment and profile, which \"" + step.name + "\" needs", job_file.string(),
                   "name both files in job.json");
+    } else if (step.name == options.last_step && step.name == "compare") {
+      throw Error("the job has nothing to compare", job_file.string(),
+                  "name an earlier job in \"before\", or ask for \"face\" or \"straightedge\"");
     }
     if (step.name == options.last_step) present.only_take_up = true;  // what later steps left may still hold
   }

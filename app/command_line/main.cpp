@@ -65,6 +65,7 @@ std::vector<Command> commands() {
       {"surface", "make the surface of a job, and what it needs", up_to("surface")},
       {"profile", "map and sections of a job, and what they need", up_to("profile")},
       {"volume", "volumes of a job, and what they need", up_to("volume")},
+      {"compare", "faces, layers and evenness of a job, and what they need", up_to("compare")},
       {"report", "the report of a job, and what it needs", up_to("report")},
       {"info", "what a scan, alignment, profile, control file or job holds", declare_info},
       {"convert", "a scan into another format", declare_convert},
