@@ -24,13 +24,15 @@ bool wanted(const JobState& state) {
 
 std::string depends_on(const JobState& state) {
   const Job& job = state.job;
-  std::string text = "compare 2|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "");
+  std::string text = "compare 3|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "") +
+                     (job.driven_up_chainage ? "" : "|down");
   if (job.before)
     text += "|" + short_number(job.before->layer.minimum_m) + "," + short_number(job.before->layer.nominal_m);
   if (job.straightedge)
     text += "|" + short_number(job.straightedge->length_m) + "," + short_number(job.straightedge->limit_ratio);
   for (const JobRound& round : job.rounds)
-    text += "|" + std::to_string(round.number) + "," + short_number(round.drilled_m);
+    text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +
+            "," + short_number(round.drilled_m);
   return text;
 }
 
@@ -165,7 +167,7 @@ void compare_surfaces(JobState& state, const JobState& before, const std::vector
   const MapResult earlier = map_deviations(scans, *state.design, map.from_m, map.to_m, state.job.options.profiling,
                                            progress, state.memory_bytes / 4);
   MapChange change = compare_maps(earlier.map, map, *state.design, state.job.before->layer, before.results.registration,
-                                  state.results.registration);
+                                  state.results.registration, state.job.options.profiling.range_bias_sigma_m);
   result.layer = std::move(change.layer);
   result.change = change.change;
   state.change = std::move(change.thickness);

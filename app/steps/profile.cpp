@@ -25,9 +25,13 @@ std::string depends_on(const JobState& state) {
   for (const DesignLine& line : state.job.lines)
     text += "|" + line.name + short_number(line.offset_m) + "," + short_number(line.growth_per_m) +
             (line.clearance ? " clear" : "");
-  text += state.job.driven_up_chainage ? "" : "|down";
+  const bool grows = std::any_of(state.job.lines.begin(), state.job.lines.end(),
+                                 [](const DesignLine& line) { return line.growth_per_m != 0.0; });
+  if (grows) {
+    text += state.job.driven_up_chainage ? "" : "|down";
+    for (const JobRound& round : state.job.rounds) text += "|" + short_number(round.from_m) + short_number(round.to_m);
+  }
   if (state.job.sections == JobSections::both) text += "|both planes";
-  for (const JobRound& round : state.job.rounds) text += "|" + short_number(round.from_m) + short_number(round.to_m);
   const JobChainage stretch = state.stretch();
   text +=
       "|" + short_number(stretch.from_m) + "|" + short_number(stretch.to_m) + "|" + short_number(stretch.interval_m);

@@ -109,6 +109,9 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   SurfaceResult result;
   result.mesh = summarise(mesh);
   state.mesh = io::MeshFile{mesh_arrays(mesh), {}};
+  // As the file gives them back, to the last bit: later steps are the same whether the mesh was made or taken up.
+  const Eigen::Vector3d& origin = state.results.import.origin.position;
+  for (Eigen::Vector3d& point : state.mesh->mesh.points) point = Eigen::Vector3d(point + origin) - origin;
   add_deviations(state, result);
   state.results.surface = result;
   io::write_mesh_ply(state.out / "mesh.ply", *state.mesh, state.results.import.origin.position);

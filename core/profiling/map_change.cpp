@@ -15,31 +15,34 @@ constexpr double least_block_share = 0.5;
 
 /// How well both epochs stand to one another.
 struct CommonSigma {
-  double across_m, up_m;
-  double along_normal(const Eigen::Vector2d& normal) const {
-    return std::hypot(normal.x() * across_m, normal.y() * up_m);
+  double across_m, up_m, distance_m;
+  double along_normal(const Eigen::Vector2d& normal, double incidence) const {
+    return std::hypot(normal.x() * across_m, normal.y() * up_m, incidence * distance_m);
   }
 };
 
-CommonSigma sigma_between(const RegistrationResult& before, const RegistrationResult& after) {
+CommonSigma sigma_between(const RegistrationResult& before, const RegistrationResult& after,
+                          double range_bias_sigma_m) {
   const PoseSigma a = common_sigma(before), b = common_sigma(after);
-  return {std::hypot(a.across_m, b.across_m), std::hypot(a.up_m, b.up_m)};
+  return {std::hypot(a.across_m, b.across_m), std::hypot(a.up_m, b.up_m), std::sqrt(2.0) * range_bias_sigma_m};
 }
 
 /// A cell measured in both epochs.
 struct Pair {
   double area_m2, thickness_m, noise2_m2;
   Eigen::Vector2d normal;
+  double incidence;  ///< mean cosine
 };
 
 struct BlockSums {
-  double line_m2 = 0.0, area_m2 = 0.0, volume_m3 = 0.0, noise_m6 = 0.0, across_m3 = 0.0, up_m3 = 0.0;
+  double line_m2 = 0.0, area_m2 = 0.0, volume_m3 = 0.0, noise_m6 = 0.0, across_m3 = 0.0, up_m3 = 0.0, distance_m3 = 0.0;
   void add(const Pair& pair, const CommonSigma& sigma) {
     area_m2 += pair.area_m2;
     volume_m3 += pair.area_m2 * pair.thickness_m;
     noise_m6 += pair.area_m2 * pair.area_m2 * pair.noise2_m2;
     across_m3 += pair.area_m2 * pair.normal.x() * sigma.across_m;
     up_m3 += pair.area_m2 * pair.normal.y() * sigma.up_m;
+    distance_m3 += pair.area_m2 * pair.incidence * sigma.distance_m;
   }
   BlockSums& operator+=(const BlockSums& other) {
     line_m2 += other.line_m2;
@@ -48,9 +51,12 @@ struct BlockSums {
     noise_m6 += other.noise_m6;
     across_m3 += other.across_m3;
     up_m3 += other.up_m3;
+    distance_m3 += other.distance_m3;
     return *this;
   }
-  double sigma_m3() const { return std::sqrt(noise_m6 + across_m3 * across_m3 + up_m3 * up_m3); }
+  double sigma_m3() const {
+    return std::sqrt(noise_m6 + across_m3 * across_m3 + up_m3 * up_m3 + distance_m3 * distance_m3);
+  }
 };
 
 double noise2(const MapCell& cell) {
@@ -87,9 +93,9 @@ struct Comparison {
     const double x_m = at.position.x() + half_way_m * at.normal.x();
     const Pair pair{line_m2 * std::max(0.0, 1.0 + at.curvature_per_m * half_way_m) * (1.0 - curvature_per_m * x_m),
                     static_cast<double>(old.deviation_m - present.deviation_m), noise2(old) + noise2(present),
-                    at.normal};
+                    at.normal, 0.5 * static_cast<double>(old.incidence + present.incidence)};
     block.add(pair, sigma);
-    const double level_m = 1.96 * std::hypot(std::sqrt(pair.noise2_m2), sigma.along_normal(at.normal));
+    const double level_m = 1.96 * std::hypot(std::sqrt(pair.noise2_m2), sigma.along_normal(at.normal, pair.incidence));
     levels.push_back(level_m);
     result.thickness.cell(r, c) = {static_cast<float>(pair.thickness_m), static_cast<float>(level_m), present.count,
                                    present.incidence, CellKind::measured};
@@ -148,9 +154,10 @@ void add_classes(LayerResult& layer) {
 
 MapChange compare_maps(const DeviationMap& before, const DeviationMap& after, const DesignTunnel& design,
                        const LayerDesign& layer, const RegistrationResult& registration_before,
-                       const RegistrationResult& registration_after) {
+                       const RegistrationResult& registration_after, double range_bias_sigma_m) {
   expect_same_grid(before, after);
-  Comparison comparison{before, after, design, sigma_between(registration_before, registration_after), {}, {}, {}};
+  Comparison comparison{
+      before, after, design, sigma_between(registration_before, registration_after, range_bias_sigma_m), {}, {}, {}};
   MapChange& result = comparison.result;
   result.thickness = after;
   std::fill(result.thickness.cells.begin(), result.thickness.cells.end(), MapCell{});

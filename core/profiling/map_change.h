@@ -23,7 +23,7 @@ struct LayerBlock {
   double p_m = 0.0;
   double measured_m2 = 0.0;
   double mean_m = 0.0;   ///< thickness: positive where rock or concrete came in, negative where some is gone
-  double sigma_m = 0.0;  ///< of the mean, registration of both epochs included
+  double sigma_m = 0.0;  ///< of the mean, registration and distances of both epochs included
 };
 
 struct LayerResult {
@@ -40,7 +40,8 @@ struct LayerResult {
   std::vector<LayerBlock> blocks;  ///< at least half measured; in order of chainage, then p
 };
 
-/// Level of detection at 95 %: 1.96 sqrt(s1^2/n1 + s2^2/n2 + registration^2) (Lague, Brodu, Leroux 2013, equation 1).
+/// Level of detection at 95 %: 1.96 sqrt(s1^2/n1 + s2^2/n2 + registration^2) (Lague, Brodu, Leroux 2013, equation 1);
+/// the distances' systematic error counts as registration.
 struct ChangeResult {
   double level_m = 0.0;  ///< median over the cells
   double compared_m2 = 0.0;
@@ -58,9 +59,10 @@ struct MapChange {
 
 /// before and after: maps of the same design and grid. Thickness counts along the outward normal of the profile; the
 /// surface of a cell at half-way depth is (1 + kp d)(1 - kh x) of that of the profile. Throws Error when the grids
-/// differ.
+/// differ. range_bias_sigma_m: systematic error of distances, of each epoch by itself; it counts by the cosine of
+/// incidence.
 MapChange compare_maps(const DeviationMap& before, const DeviationMap& after, const DesignTunnel& design,
                        const LayerDesign& layer, const RegistrationResult& registration_before,
-                       const RegistrationResult& registration_after);
+                       const RegistrationResult& registration_after, double range_bias_sigma_m);
 
 }  // namespace adit

@@ -142,7 +142,7 @@ TEST(Layer, ThicknessVolumeAndClassesOfAShell) {
     if (at.normal.y() < -0.5) return 0.10;
     return s > 22.0 && s < 24.0 ? 0.07 : 0.02;
   });
-  const MapChange change = compare_maps(before, after, design, {0.05, 0.07}, registered(0.001), registered(0.001));
+  const MapChange change = compare_maps(before, after, design, {0.05, 0.07}, registered(0.001), registered(0.001), 0.0);
   EXPECT_NEAR(change.layer.measured_m2, 2.0 * pi * (radius + 0.07) * 8.0, 0.02 * 200.0);
   // Guldin per sector of the ring; on the curve both sides balance.
   const auto shell = [&](double inner) {
@@ -156,6 +156,9 @@ TEST(Layer, ThicknessVolumeAndClassesOfAShell) {
   EXPECT_NEAR(change.change.level_m, 1.96 * std::hypot(0.001, 0.001), 1e-4);
   EXPECT_EQ(change.change.outwards_m2, 0.0);
   EXPECT_NEAR(change.change.inwards_m3, change.layer.volume_m3, 1e-6) << "all of the layer is significant";
+  // Distances that are off by 2 mm in each epoch move all of the shell.
+  const LayerResult biased = compare_maps(before, after, design, {}, registered(0.0), registered(0.0), 0.002).layer;
+  EXPECT_NEAR(biased.sigma_volume_m3, std::sqrt(2.0) * 0.002 * biased.measured_m2, 1e-3 * biased.measured_m2 * 0.002);
   const LayerBlock& one = change.layer.blocks.front();
   EXPECT_NEAR(one.chainage_m, 20.5, 1e-9);
   EXPECT_GT(one.sigma_m, 0.0005);
@@ -173,12 +176,12 @@ TEST(Layer, NoiseIsNoSignificantChange) {
     for (MapCell& cell : map.cells) cell.spread_m = static_cast<float>(spread);  // of 9 points each
     return map;
   };
-  const MapChange change = compare_maps(noisy(1), noisy(2), design, {}, registered(0.0), registered(0.0));
+  const MapChange change = compare_maps(noisy(1), noisy(2), design, {}, registered(0.0), registered(0.0), 0.0);
   const double share = (change.change.inwards_m2 + change.change.outwards_m2) / change.change.compared_m2;
   EXPECT_NEAR(share, 0.05, 0.005) << "a level of 95 %";
   DeviationMap other = noisy(1);
   other.step_q_m = 0.2;
-  EXPECT_THROW(compare_maps(other, noisy(2), design, {}, {}, {}), Error);
+  EXPECT_THROW(compare_maps(other, noisy(2), design, {}, {}, {}, 0.0), Error);
 }
 
 TEST(Undulation, WavesAndDentsAreMeasuredUnderTheEdge) {
