@@ -27,7 +27,8 @@ TruthComparison compare_with_truth(const Results& results, const Truth& truth) {
     const Volume& volume = results.volume->lines.front();
     const bool same_stretch =
         std::abs(volume.from_m - truth.from_m) < 1e-6 && std::abs(volume.to_m - truth.to_m) < 1e-6;
-    if (same_stretch && vertical && volume.line_offset_m == 0.0) {
+    const bool same_design = std::abs(volume.slices.design_m3 / truth.volume.design_m3 - 1.0) < 1e-3;
+    if (same_stretch && same_design && vertical && volume.line_offset_m == 0.0) {
       comparison.excavated_error = volume.slices.excavated_m3 / truth.volume.excavated_m3 - 1.0;
       comparison.overbreak_error = volume.slices.overbreak_m3 / truth.volume.overbreak_m3 - 1.0;
       comparison.underbreak_error_m3 = volume.slices.underbreak_m3 - truth.volume.underbreak_m3;

@@ -16,7 +16,7 @@ inline std::string csv_number(double value, int decimals) {
 }
 
 /// A word in quotes, quotes doubled, where it holds what would end a cell.
-inline std::string csv_word(const std::string& text) {
+inline std::string cell_word(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

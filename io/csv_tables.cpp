@@ -11,7 +11,7 @@ namespace {
 
 void add_volume_row(std::string& csv, const std::string& what, const Volume& volume, const char* method,
                     const VolumeAmounts& amounts, bool has_sigma) {
-  csv += what + "," + csv_word(volume.line) + "," + csv_number(volume.line_offset_m, 4) + "," +
+  csv += what + "," + cell_word(volume.line) + "," + csv_number(volume.line_offset_m, 4) + "," +
          csv_number(volume.from_m, 3) + "," + csv_number(volume.to_m, 3) + "," + method + "," +
          csv_number(amounts.design_m3, 4) + "," + csv_number(amounts.excavated_m3, 4) + "," +
          csv_number(amounts.overbreak_m3, 4) + "," + csv_number(amounts.underbreak_m3, 4) + ",";
@@ -26,6 +26,11 @@ void add_volume(std::string& csv, const std::string& what, const Volume& volume)
   add_volume_row(csv, what, volume, "slices", volume.slices, true);
   add_volume_row(csv, what, volume, "average_end_area", volume.average_end_area, false);
   add_volume_row(csv, what, volume, "prismoidal", volume.prismoidal, false);
+  if (!volume.mesh.closed) return;
+  VolumeAmounts mesh;
+  mesh.design_m3 = mesh.overbreak_m3 = mesh.underbreak_m3 = std::nan("");
+  mesh.excavated_m3 = volume.mesh.excavated_m3;
+  add_volume_row(csv, what, volume, "mesh", mesh, false);
 }
 
 }  // namespace
@@ -40,7 +45,7 @@ std::string sections_csv(const Results& results) {
     for (const SectionAreas& a : section.lines)
       csv += csv_number(section.chainage_m, 3) + "," + csv_number(section.station_m, 3) + "," +
              csv_number(section.axis_site.x(), 4) + "," + csv_number(section.axis_site.y(), 4) + "," +
-             csv_number(section.axis_site.z(), 4) + "," + csv_word(a.line) + "," + csv_number(a.line_offset_m, 4) +
+             csv_number(section.axis_site.z(), 4) + "," + cell_word(a.line) + "," + csv_number(a.line_offset_m, 4) +
              "," + csv_number(a.design_area_m2, 4) + "," + csv_number(a.area_m2, 4) + "," +
              csv_number(a.overbreak_m2, 4) + "," + csv_number(a.underbreak_m2, 4) + "," +
              csv_number(a.max_overbreak_m, 4) + "," + csv_number(a.max_overbreak_p_m, 3) + "," +
@@ -72,14 +77,14 @@ std::string registration_csv(const Results& results) {
   for (std::size_t i = 0; i < results.registration.scans.size(); ++i) {
     const PlacedScan& scan = results.registration.scans[i];
     if (!scan.placed) {
-      csv += csv_word(scan.name) + ",not placed,,,,,,,,,,,,,\n";
+      csv += cell_word(scan.name) + ",not placed,,,,,,,,,,,,,\n";
       continue;
     }
     const Pose pose = site_from_scan(results, i);
     const YawPitchRoll turn = yaw_pitch_roll(pose);
     std::string weak;
     for (const auto& direction : scan.undetermined) weak += (weak.empty() ? "" : " ") + direction;
-    csv += csv_word(scan.name) + "," + scan.placed_by + "," + csv_number(pose.translation().x(), 4) + "," +
+    csv += cell_word(scan.name) + "," + scan.placed_by + "," + csv_number(pose.translation().x(), 4) + "," +
            csv_number(pose.translation().y(), 4) + "," + csv_number(pose.translation().z(), 4) + "," +
            csv_number(deg_from_rad(turn.yaw_rad), 5) + "," + csv_number(deg_from_rad(turn.pitch_rad), 5) + "," +
            csv_number(deg_from_rad(turn.roll_rad), 5) + "," + csv_number(1e3 * scan.sigma.along_m, 2) + "," +
@@ -99,8 +104,8 @@ std::string sectors_csv(const Results& results) {
   const auto add = [&](const std::string& stretch, const Volume& volume) {
     for (const SectorVolume& s : volume.sectors) {
       const double surface_m2 = s.surface_m2 > 0.0 ? s.surface_m2 : 1.0;
-      csv += stretch + "," + csv_word(volume.line) + "," + csv_number(volume.line_offset_m, 4) + "," +
-             csv_number(volume.from_m, 3) + "," + csv_number(volume.to_m, 3) + "," + csv_word(s.name) + "," +
+      csv += stretch + "," + cell_word(volume.line) + "," + csv_number(volume.line_offset_m, 4) + "," +
+             csv_number(volume.from_m, 3) + "," + csv_number(volume.to_m, 3) + "," + cell_word(s.name) + "," +
              csv_number(s.surface_m2, 3) + "," + csv_number(s.measured_m2 / surface_m2, 4) + "," +
              csv_number(s.overbreak_m3, 4) + "," + csv_number(s.underbreak_m3, 4) + "," +
              csv_number(s.overbreak_m3 / surface_m2, 4) + "," + csv_number(s.max_overbreak_m, 4) + ",";
@@ -140,7 +145,7 @@ std::string rings_csv(const Results& results) {
     return std::isfinite(value) ? csv_number(value, decimals) : std::string();
   };
   for (const RingResult& r : results.rings->rings)
-    csv += csv_word(r.ring) + "," + csv_number(r.chainage_m, 4) + "," + csv_number(r.station_m, 4) + "," +
+    csv += cell_word(r.ring) + "," + csv_number(r.chainage_m, 4) + "," + csv_number(r.station_m, 4) + "," +
            csv_number(r.center.x(), 4) + "," + csv_number(r.center.y(), 4) + "," + csv_number(r.center.z(), 4) + "," +
            csv_number(r.horizontal_deviation_m, 4) + "," + csv_number(r.vertical_deviation_m, 4) + "," +
            csv_number(r.radius_m, 4) + "," + known(r.ovality_m, 4) + "," + known(r.major_clock_deg, 1) + "," +

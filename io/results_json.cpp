@@ -320,23 +320,24 @@ json tolerances_json(const ToleranceResult& tolerances) {
   one["verified_by"] = tolerances.verified_by.empty() ? json(nullptr) : json(tolerances.verified_by);
   one["checks"] = json::array();
   for (const ToleranceCheck& c : tolerances.checks)
-    one["checks"].push_back({{"rock_class", c.rock_class},
-                             {"sector", c.sector},
-                             {"verdict", verdict(c)},
-                             {"surface_m2", c.surface_m2},
-                             {"coverage", c.coverage()},
-                             {"mean_overbreak_m", c.mean_overbreak_m},
-                             {"limit_mean_overbreak_m", limit_json(c.limits.mean_overbreak_m)},
-                             {"max_overbreak_m", c.max_overbreak_m},
-                             {"limit_max_overbreak_m", limit_json(c.limits.max_overbreak_m)},
-                             {"max_overbreak_chainage", c.max_overbreak_chainage_m},
-                             {"over_limit_m2", c.over_limit_m2},
-                             {"max_underbreak_m", c.max_underbreak_m},
-                             {"limit_max_underbreak_m", limit_json(c.limits.max_underbreak_m)},
-                             {"max_underbreak_chainage", c.max_underbreak_chainage_m},
-                             {"under_limit_m2", c.under_limit_m2},
-                             {"max_underbreak_area_m2", c.max_underbreak_area_m2},
-                             {"limit_max_underbreak_area_m2", limit_json(c.limits.max_underbreak_area_m2)}});
+    one["checks"].push_back(
+        {{"rock_class", c.rock_class},
+         {"sector", c.sector},
+         {"verdict", verdict(c)},
+         {"surface_m2", c.surface_m2},
+         {"coverage", c.coverage()},
+         {"mean_overbreak_m", c.mean_overbreak_m},
+         {"limit_mean_overbreak_m", limit_json(c.limits.mean_overbreak_m)},
+         {"max_overbreak_m", c.max_overbreak_m},
+         {"limit_max_overbreak_m", limit_json(c.limits.max_overbreak_m)},
+         {"max_overbreak_chainage", c.max_overbreak_m > 0.0 ? json(c.max_overbreak_chainage_m) : json(nullptr)},
+         {"over_limit_m2", c.over_limit_m2},
+         {"max_underbreak_m", c.max_underbreak_m},
+         {"limit_max_underbreak_m", limit_json(c.limits.max_underbreak_m)},
+         {"max_underbreak_chainage", c.max_underbreak_m > 0.0 ? json(c.max_underbreak_chainage_m) : json(nullptr)},
+         {"under_limit_m2", c.under_limit_m2},
+         {"max_underbreak_area_m2", c.max_underbreak_area_m2},
+         {"limit_max_underbreak_area_m2", limit_json(c.limits.max_underbreak_area_m2)}});
   return one;
 }
 

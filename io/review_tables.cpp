@@ -33,7 +33,7 @@ std::string zones_csv(const Results& results) {
     rest_m3 -= amounts.overbreak_m3;
     csv +=
         row({std::to_string(i + 1), csv_number(zone.from_m, 3), csv_number(zone.to_m, 3), csv_number(zone.from_deg, 1),
-             csv_number(zone.to_deg, 1), zone.reason, csv_word(zone.note), csv_number(amounts.surface_m2, 3),
+             csv_number(zone.to_deg, 1), zone.reason, cell_word(zone.note), csv_number(amounts.surface_m2, 3),
              csv_number(amounts.surface_m2 > 0.0 ? amounts.measured_m2 / amounts.surface_m2 : 0.0, 4),
              csv_number(amounts.overbreak_m3, 4), csv_number(amounts.underbreak_m3, 4),
              csv_number(amounts.max_overbreak_m, 4)});
@@ -48,13 +48,14 @@ std::string tolerances_csv(const Results& results) {
       "max_underbreak_chainage_m,under_limit_m2,max_underbreak_area_m2,limit_max_underbreak_area_m2\n";
   if (!results.volume) return csv;
   for (const ToleranceCheck& c : results.volume->tolerances.checks)
-    csv += row({csv_word(results.volume->tolerances.set), csv_word(c.rock_class), csv_word(c.sector), verdict(c),
+    csv += row({cell_word(results.volume->tolerances.set), cell_word(c.rock_class), cell_word(c.sector), verdict(c),
                 csv_number(c.surface_m2, 3), csv_number(c.coverage(), 4), csv_number(c.mean_overbreak_m, 4),
                 limit(c.limits.mean_overbreak_m), csv_number(c.max_overbreak_m, 4), limit(c.limits.max_overbreak_m),
-                csv_number(c.max_overbreak_chainage_m, 3), csv_number(c.over_limit_m2, 3),
-                csv_number(c.max_underbreak_m, 4), limit(c.limits.max_underbreak_m),
-                csv_number(c.max_underbreak_chainage_m, 3), csv_number(c.under_limit_m2, 3),
-                csv_number(c.max_underbreak_area_m2, 3), limit(c.limits.max_underbreak_area_m2)});
+                c.max_overbreak_m > 0.0 ? csv_number(c.max_overbreak_chainage_m, 3) : std::string(),
+                csv_number(c.over_limit_m2, 3), csv_number(c.max_underbreak_m, 4), limit(c.limits.max_underbreak_m),
+                c.max_underbreak_m > 0.0 ? csv_number(c.max_underbreak_chainage_m, 3) : std::string(),
+                csv_number(c.under_limit_m2, 3), csv_number(c.max_underbreak_area_m2, 3),
+                limit(c.limits.max_underbreak_area_m2)});
   return csv;
 }
 
@@ -89,7 +90,7 @@ std::string clearance_csv_header() {
 
 std::string clearance_csv_row(const ClearanceResult& clearance, const ClearancePoint& point, const std::string& scan,
                               const Eigen::Vector3d& site, double station_m) {
-  return row({csv_word(clearance.line), csv_number(clearance.line_offset_m, 4), csv_word(scan),
+  return row({cell_word(clearance.line), csv_number(clearance.line_offset_m, 4), cell_word(scan),
               csv_number(point.at.s_m, 4), csv_number(station_m, 4), csv_number(point.at.x_m, 4),
               csv_number(point.at.z_m, 4), csv_number(point.inside_m, 4), csv_number(site.x(), 4),
               csv_number(site.y(), 4), csv_number(site.z(), 4)});

@@ -64,11 +64,14 @@ void add_review(std::string& text, const Results& results) {
       add(text, "\nClearance \"%s\": %llu points in %zu places inside it\n", clearance.line.c_str(),
           static_cast<unsigned long long>(clearance.points), clearance.intrusions.size());
   if (!results.volume) return;
+  double rest_m3 = results.volume->lines.empty() ? 0.0 : results.volume->lines.front().slices.overbreak_m3;
   for (std::size_t i = 0; i < results.volume->zones.size(); ++i) {
     const auto& [zone, amounts] = results.volume->zones[i];
     add(text, "%s  zone %zu, %s, chainage %.2f to %.2f: overbreak %.2f m3\n", i == 0 ? "\nZones\n" : "", i + 1,
         zone.reason.c_str(), zone.from_m, zone.to_m, amounts.overbreak_m3);
+    rest_m3 -= amounts.overbreak_m3;
   }
+  if (!results.volume->zones.empty()) add(text, "  unassigned: overbreak %.2f m3\n", rest_m3);
   const ToleranceResult& tolerances = results.volume->tolerances;
   if (tolerances.set.empty()) return;
   const auto kept = std::count_if(tolerances.checks.begin(), tolerances.checks.end(),
@@ -95,7 +98,7 @@ void add_comparison(std::string& text, const CompareResult& result) {
         result.before.c_str(), 1e3 * layer.mean_m, layer.volume_m3, 2.0 * layer.sigma_volume_m3, layer.measured_m2);
     if (layer.design.nominal_m > 0.0)
       add(text,
-          "  square metres below the minimum of %.0f mm: %.1f %%, below %.0f mm: %.1f %%, from there on: %.1f %%\n",
+          "  square metres below the minimum of %.0f mm: %.1f %%, from there to %.0f mm: %.1f %%, more: %.1f %%\n",
           1e3 * layer.design.minimum_m, 100.0 * layer.below_minimum, 1e3 * layer.design.nominal_m,
           100.0 * layer.below_nominal, 100.0 * layer.from_nominal);
     add(text, "  changed for certain (level %.1f mm): %.1f m2 inwards, %.1f m2 outwards\n", 1e3 * result.change.level_m,

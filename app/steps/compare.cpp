@@ -94,7 +94,7 @@ FaceMap face_of(const JobState& state, const std::vector<PlacedTiles>& scans, co
   if (face.cells.empty()) {
     result.findings.push_back({Severity::warning, "face " + epoch,
                                "no face was seen: looking " + drive + " too little of the profile ends at one place",
-                               "scan the face, or state \"drive\""});
+                               "scan the face, or look whether \"drive\" is the right way"});
     return face;
   }
   const FaceSummary summary = summarise(face);
@@ -171,6 +171,15 @@ void compare_surfaces(JobState& state, const JobState& before, const std::vector
   result.layer = std::move(change.layer);
   result.change = change.change;
   state.change = std::move(change.thickness);
+  if (result.layer.below_minimum > 0.0) {
+    char thin[200];
+    std::snprintf(
+        thin, sizeof thin,
+        "%.1f %% of %zu square metres are thinner than the minimum of %.0f mm, the floor and what was left bare "
+        "on purpose among them",
+        100.0 * result.layer.below_minimum, result.layer.blocks.size(), 1e3 * result.layer.design.minimum_m);
+    result.findings.push_back({Severity::warning, "layer", thin, "look at report/layer.png and layer.csv"});
+  }
   const double share = result.layer.surface_m2 > 0.0 ? result.layer.measured_m2 / result.layer.surface_m2 : 0.0;
   if (share >= 0.6) return;
   char words[160];

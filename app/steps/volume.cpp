@@ -113,12 +113,19 @@ void add_zones(const JobState& state, VolumeResult& result) {
 Finding tolerance_finding(const ToleranceCheck& check, const DesignLine& line) {
   std::string words = "rock class " + check.rock_class + ", against " + line.name + ": ";
   if (check.broken()) {
-    char limits[200];
-    std::snprintf(
-        limits, sizeof limits,
-        "beyond its tolerance (overbreak mean %.3f, most %.3f m; underbreak most %.3f m, largest piece %.2f m2)",
-        check.mean_overbreak_m, check.max_overbreak_m, check.max_underbreak_m, check.max_underbreak_area_m2);
-    return {Severity::warning, "tolerance of " + check.sector, words + limits, "look at the map and at tolerances.csv"};
+    const auto add = [&](const char* what, double value, double limit, const char* unit, const char* format) {
+      if (value <= limit) return;
+      char one[120];
+      std::snprintf(one, sizeof one, format, what, value, unit, limit, unit);
+      words += (words.ends_with(": ") ? "" : ", ") + std::string(one);
+    };
+    const ToleranceRow& limits = check.limits;
+    constexpr const char* length = "%s %.4f %s of %.4f %s permitted";
+    add("mean overbreak", check.mean_overbreak_m, limits.mean_overbreak_m, "m", length);
+    add("overbreak", check.max_overbreak_m, limits.max_overbreak_m, "m", length);
+    add("underbreak", check.max_underbreak_m, limits.max_underbreak_m, "m", length);
+    add("a piece left inside", check.max_underbreak_area_m2, limits.max_underbreak_area_m2, "m2", length);
+    return {Severity::warning, "tolerance of " + check.sector, words, "look at the map and at tolerances.csv"};
   }
   char seen[120];
   std::snprintf(seen, sizeof seen, "nothing beyond its tolerance, but only %.0f %% of it was seen",

@@ -373,7 +373,9 @@ MapResult map_deviations(const std::vector<PlacedTiles>& scans, const ChainageIn
   for (const Opening& opening : find_openings(result.map, mapper.stretches, mapper.profile_of_row))
     result.findings.push_back(opening_finding(opening, options.reach_out_m));
   fill_map_gaps(result.map, mapper, options.gap_m);
-  if (objects.cells > 0) result.findings.push_back(objects_finding(objects, result.map.step_s_m * result.map.step_q_m));
+  constexpr double least_named_m2 = 0.05;
+  if (static_cast<double>(objects.cells) * result.map.step_s_m * result.map.step_q_m >= least_named_m2)
+    result.findings.push_back(objects_finding(objects, result.map.step_s_m * result.map.step_q_m));
   return result;
 }
 
