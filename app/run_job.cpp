@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <functional>
 #include <map>
 
 #include "app/truth_comparison.h"
@@ -89,23 +90,37 @@ bool has_circles(const ProfileResult& profile) {
                      [](const Section& section) { return section.circle.there; });
 }
 
+/// A table that not every job asks for: one that an earlier run left may not stay when this job no longer does.
+void write_table(const fs::path& file, bool asked_for, const std::function<std::string()>& text) {
+  std::error_code ignored;
+  if (asked_for)
+    io::write_file_atomically(file, text());
+  else
+    fs::remove(file, ignored);
+}
+
 void write_results(const JobState& state) {
-  io::write_file_atomically(state.out / "results.json", io::results_text(state.results));
-  if (state.has_scans()) io::write_file_atomically(state.out / "registration.csv", io::registration_csv(state.results));
-  if (state.results.profile) io::write_file_atomically(state.out / "sections.csv", io::sections_csv(state.results));
-  if (state.results.profile && has_circles(*state.results.profile))
-    io::write_file_atomically(state.out / "circles.csv", io::circles_csv(state.results));
-  if (state.results.volume) io::write_file_atomically(state.out / "volumes.csv", io::volumes_csv(state.results));
-  if (state.results.volume) io::write_file_atomically(state.out / "sectors.csv", io::sectors_csv(state.results));
-  if (state.results.volume && !state.job.zones.empty())
-    io::write_file_atomically(state.out / "zones.csv", io::zones_csv(state.results));
-  if (state.results.volume && state.tolerances)
-    io::write_file_atomically(state.out / "tolerances.csv", io::tolerances_csv(state.results));
-  if (state.results.compare && state.job.face)
-    io::write_file_atomically(state.out / "face.csv", io::face_csv(*state.results.compare));
-  if (state.results.compare && state.job.before)
-    io::write_file_atomically(state.out / "layer.csv", io::layer_csv(*state.results.compare));
-  if (state.results.rings) io::write_file_atomically(state.out / "rings.csv", io::rings_csv(state.results));
+  const Results& results = state.results;
+  const Job& job = state.job;
+  io::write_file_atomically(state.out / "results.json", io::results_text(results));
+  if (state.has_scans()) io::write_file_atomically(state.out / "registration.csv", io::registration_csv(results));
+  if (results.profile) {
+    io::write_file_atomically(state.out / "sections.csv", io::sections_csv(results));
+    write_table(state.out / "circles.csv", has_circles(*results.profile), [&] { return io::circles_csv(results); });
+  }
+  if (results.volume) {
+    io::write_file_atomically(state.out / "volumes.csv", io::volumes_csv(results));
+    io::write_file_atomically(state.out / "sectors.csv", io::sectors_csv(results));
+  }
+  if (results.volume || job.zones.empty())
+    write_table(state.out / "zones.csv", !job.zones.empty(), [&] { return io::zones_csv(results); });
+  if (results.volume || !job.tolerances)
+    write_table(state.out / "tolerances.csv", job.tolerances.has_value(), [&] { return io::tolerances_csv(results); });
+  if (results.compare || !job.face)
+    write_table(state.out / "face.csv", job.face, [&] { return io::face_csv(*results.compare); });
+  if (results.compare || !job.before)
+    write_table(state.out / "layer.csv", job.before.has_value(), [&] { return io::layer_csv(*results.compare); });
+  if (results.rings) io::write_file_atomically(state.out / "rings.csv", io::rings_csv(results));
 }
 
 void create_folder(const fs::path& folder) {

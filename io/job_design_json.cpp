@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/foundation/error.h"
+#include "io/existing_file.h"
 #include "io/file_ending.h"
 #include "io/text_place.h"
 
@@ -284,16 +285,6 @@ void add_review(const Job& job, nlohmann::ordered_json& root) {
 }
 
 }  // namespace
-
-std::string existing_file(const JsonPlace& place, const fs::path& folder) {
-  const std::string name = place.text();
-  if (name.empty()) place.refuse("the name of a file is needed", "write it relative to the job's folder");
-  std::error_code error;
-  if (!fs::exists(folder / name, error))
-    place.refuse("there is no file " + quoted_word(name), "paths are relative to the folder of job.json");
-  if (fs::is_directory(folder / name, error)) place.refuse(quoted_word(name) + " is a folder", "name a file");
-  return name;
-}
 
 void read_job_design(const JsonPlace& place, const fs::path& folder, Job& job) {
   if (place.has("profile")) job.profiles = read_profiles(place.at("profile"), folder);

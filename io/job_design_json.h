@@ -8,9 +8,6 @@
 
 namespace adit::io {
 
-/// The name of a file that is there, relative to the job's folder.
-std::string existing_file(const JsonPlace& place, const std::filesystem::path& folder);
-
 /// Profiles, lines, stretch, rounds, zones, tolerances, sectors and swell of the job at `place`.
 void read_job_design(const JsonPlace& place, const std::filesystem::path& folder, Job& job);
 

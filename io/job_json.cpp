@@ -4,6 +4,7 @@
 
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
+#include "io/existing_file.h"
 #include "io/job_design_json.h"
 #include "io/json_place.h"
 #include "io/options_json.h"

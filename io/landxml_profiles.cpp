@@ -5,7 +5,6 @@
 #include "core/foundation/error.h"
 #include "core/foundation/options.h"
 #include "io/landxml_node.h"
-#include "io/landxml_units.h"
 
 namespace adit::io {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/foundation/options.h"
 #include "io/expression.h"
 #include "io/json_place.h"
+#include "io/library_files.h"
 #include "io/text_place.h"
 
 namespace adit::io {
@@ -134,16 +135,15 @@ Profile read_profile_json(const std::filesystem::path& file, const ProfileSizes&
 }
 
 Profile library_profile(const std::string& name, const ProfileSizes& sizes) {
-  for (const LibraryFile& file : library_files())
+  for (const LibraryFile& file : profile_files())
     if (name == file.name) return profile_of(nlohmann::json::parse(file.json), "the library's " + name, sizes);
-  std::string known;
-  for (const LibraryFile& file : library_files()) known += (known.empty() ? "" : ", ") + std::string(file.name);
-  throw Error("there is no profile " + quoted_word(name), "the profile library", "name one of " + known);
+  throw Error("there is no profile " + quoted_word(name), "the profile library",
+              "name one of " + names_of(profile_files()));
 }
 
 std::vector<std::string> library_profiles() {
   std::vector<std::string> lines;
-  for (const LibraryFile& file : library_files()) {
+  for (const LibraryFile& file : profile_files()) {
     const nlohmann::json json = nlohmann::json::parse(file.json);
     lines.push_back(std::string(file.name) + " (" + names_of(own_sizes(JsonPlace(json, file.name))) + ")");
   }

@@ -28,11 +28,4 @@ Profile library_profile(const std::string& name, const ProfileSizes& sizes);
 /// Names of the library with their sizes and defaults, for help: "d_shape (width 5, wall_height 2.5)".
 std::vector<std::string> library_profiles();
 
-/// A file of the library as it was built in (generated from assets/profiles).
-struct LibraryFile {
-  const char* name;
-  const char* json;
-};
-const std::vector<LibraryFile>& library_files();
-
 }  // namespace adit::io

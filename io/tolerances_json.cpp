@@ -2,6 +2,8 @@
 
 #include "core/foundation/error.h"
 #include "io/json_place.h"
+#include "io/library_files.h"
+#include "io/text_place.h"
 
 namespace adit::io {
 namespace {
@@ -57,15 +59,13 @@ ToleranceSet read_tolerances(const std::filesystem::path& file) {
 }
 
 ToleranceSet library_tolerances(const std::string& name) {
-  std::string names;
-  for (const ToleranceFile& file : tolerance_files()) {
-    if (file.name == name) {
+  for (const LibraryFile& file : tolerance_files())
+    if (name == file.name) {
       const nlohmann::json root = nlohmann::json::parse(file.json);
-      return set_of(JsonPlace(root, "tolerances of the library: " + name));
+      return set_of(JsonPlace(root, "the library's " + name));
     }
-    names += (names.empty() ? "" : ", ") + std::string(file.name);
-  }
-  throw Error("the library has no tolerances \"" + name + "\"", "tolerances", "choose one of " + names);
+  throw Error("there are no tolerances " + quoted_word(name), "the tolerance library",
+              "name one of " + names_of(tolerance_files()));
 }
 
 }  // namespace adit::io

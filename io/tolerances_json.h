@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "core/design/tolerances.h"
 
@@ -16,12 +15,5 @@ ToleranceSet read_tolerances(const std::filesystem::path& file);
 
 /// A set of the library by its name. Throws Error listing the names.
 ToleranceSet library_tolerances(const std::string& name);
-
-/// A file of the library as it was built in (generated from assets/tolerances).
-struct ToleranceFile {
-  const char* name;
-  const char* json;
-};
-const std::vector<ToleranceFile>& tolerance_files();
 
 }  // namespace adit::io

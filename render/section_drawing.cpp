@@ -19,7 +19,7 @@ const Pen other_line_pen{colours::ink_blue, 0.2, {1.6, 0.8}};
 const Pen measured_pen{colours::black, 0.35, {}};
 const Pen interpolated_pen{colours::black, 0.3, {1.0, 0.7}};
 const Pen unseen_pen{colours::light_grey, 0.35, {0.3, 0.8}};
-const Pen opening_pen{colours::black, 0.2, {0.4, 1.6}};
+const Pen opening_pen{colours::black, 0.55, {0.5, 1.5}};
 const Pen axis_pen{colours::grey, 0.15, {2.5, 0.7, 0.4, 0.7}};
 
 PaperRing on_paper(const PlotArea& area, const Polygon& ring) {

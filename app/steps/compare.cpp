@@ -24,7 +24,7 @@ bool wanted(const JobState& state) {
 
 std::string depends_on(const JobState& state) {
   const Job& job = state.job;
-  std::string text = "compare 3|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "") +
+  std::string text = "compare 4|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "") +
                      (job.driven_up_chainage ? "" : "|down");
   if (job.before)
     text += "|" + short_number(job.before->layer.minimum_m) + "," + short_number(job.before->layer.nominal_m);
@@ -66,7 +66,8 @@ void judge(const UndulationDirection& direction, const UndulationResult& undulat
            CompareResult& result) {
   char words[200];
   if (direction.places == 0) {
-    std::snprintf(words, sizeof words, "%.2f m %s were measured without a gap nowhere: it says nothing",
+    std::snprintf(words, sizeof words,
+                  "an edge of %.2f m could be laid nowhere %s: nothing was measured without a gap over its length",
                   undulation.straightedge_m, way.c_str());
     result.findings.push_back({Severity::warning, "straightedge", words, "use a shorter one, or scan more"});
   } else if (undulation.limit_ratio > 0.0 && direction.over_limit > 0.0) {

@@ -81,12 +81,14 @@ render::ReportContent content_of(const JobState& state, Progress& progress) {
   return content;
 }
 
-/// Those that are no longer cut; what else lies there is not ours to touch.
-void remove_sections(const fs::path& folder) {
+/// Those that this report may not draw again; what else lies there is not ours to touch.
+void remove_old_pictures(const fs::path& folder) {
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("section_") && name.ends_with(".png") && entry.is_regular_file()) old.push_back(entry.path());
+    const bool ours =
+        (name.starts_with("section_") && name.ends_with(".png")) || name == "face.png" || name == "layer.png";
+    if (ours && entry.is_regular_file()) old.push_back(entry.path());
   }
   for (const fs::path& file : old) fs::remove(file);
 }
@@ -99,7 +101,7 @@ LeftFiles run(JobState& state, const StepContext& context, Progress& progress) {
   Progress drawing = progress.part(0.8, "drawing the report");
   const render::ReportFiles files = render::draw_report(content, *gl, drawing);
   fs::create_directories(state.out / "report");
-  remove_sections(state.out / "report");
+  remove_old_pictures(state.out / "report");
   LeftFiles left;
   for (const auto& picture : files.pictures) {
     left.push_back(picture.name == "map.png" ? fs::path(picture.name) : fs::path("report") / picture.name);

@@ -19,7 +19,7 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "volume 9|" + state.keys.at("profile");
+  std::string text = "volume 10|" + state.keys.at("profile");
   if (const auto surface = state.keys.find("surface"); surface != state.keys.end()) text += "|" + surface->second;
   for (const JobRound& round : state.job.rounds)
     text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +

@@ -31,6 +31,12 @@ struct SliceShape {
   double per_area = 1.0;
   double per_x = 0.0;
   double per_z = 0.0;
+
+  double of(double area_m2, double moment_x_m3, double moment_z_m3) const {
+    return per_area * area_m2 - per_x * moment_x_m3 - per_z * moment_z_m3;
+  }
+  /// At one place: of a unit of area there.
+  double at(const Eigen::Vector2d& place) const { return of(1.0, place.x(), place.y()); }
 };
 SliceShape slice_shape(const Alignment& axis, SectionPlane plane, double chainage_m);
 

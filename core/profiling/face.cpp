@@ -42,9 +42,11 @@ struct Search {
   }
 
   /// Points inside the profile with their cells, sorted by cell and then from far to near.
-  std::vector<FacePoint> points(const std::vector<TileRef>& tiles, double from_m, double to_m, std::size_t part,
+  std::vector<FacePoint> points(const ChainageIndex& index, double from_m, double to_m, std::size_t part,
                                 Progress& progress) const {
-    const TunnelFrames frames(design.alignment(), from_m, to_m);
+    const double lean_m = design.lean_m(from_m, to_m);
+    const TunnelFrames frames(design.alignment(), from_m - lean_m, to_m + lean_m);
+    const std::vector<TileRef> tiles = index.between(from_m - lean_m, to_m + lean_m);
     std::vector<FacePoint> all = parallel_ordered_list(tiles.size(), 1, [&](std::size_t begin, std::size_t end) {
       std::vector<FacePoint> found;
       for (std::size_t i = begin; i < end; ++i) {
@@ -54,7 +56,9 @@ struct Search {
         visit_slab_of_tile(scans, tiles[i], std::max<std::size_t>(1, count / part), frames, [&](const SlabPoint& p) {
           const auto range_m = static_cast<double>(p.range_m);
           if (scan.scanner_at_origin && (range_m < options.least_range_m || range_m > options.most_range_m)) return;
-          if (const auto cell = cell_of(p.at)) found.push_back({*cell, sign * p.at.s_m});
+          const TunnelPoint at = design.in_section(p.at);
+          if (at.s_m < from_m || at.s_m >= to_m) return;
+          if (const auto cell = cell_of(at)) found.push_back({*cell, sign * at.s_m});
         });
       }
       return found;
@@ -108,10 +112,10 @@ struct Middle {
 
 /// The farthest place with a fifth of the profile's cells within a metre. Machines hide more of a face than may be seen
 /// of it, but stand before it.
-std::optional<Middle> middle_of_face(const Search& coarse, const std::vector<TileRef>& tiles, double from_m,
-                                     double to_m, double profile_m2, Progress& progress) {
+std::optional<Middle> middle_of_face(const Search& coarse, const ChainageIndex& index, double from_m, double to_m,
+                                     double profile_m2, Progress& progress) {
   constexpr double least_part = 0.2, window_m = 1.0;
-  const std::vector<FacePoint> points = coarse.points(tiles, from_m, to_m, coarse_part, progress);
+  const std::vector<FacePoint> points = coarse.points(index, from_m, to_m, coarse_part, progress);
   std::vector<double> farthest;
   for_each_cell(points,
                 [&](std::uint32_t, const FacePoint* begin, const FacePoint*) { farthest.push_back(begin->ahead_m); });
@@ -169,7 +173,7 @@ FaceMap find_face(const std::vector<PlacedTiles>& scans, const ChainageIndex& in
   const double sign = design.drive().up_chainage ? 1.0 : -1.0;
   const Profile& about = design.profile_at(sign > 0.0 ? to_m : from_m);
   const Search coarse{scans, design, options, grid_over(about, coarse_step_m), sign};
-  const auto middle = middle_of_face(coarse, index.between(from_m, to_m), from_m, to_m, about.area_m2(), progress);
+  const auto middle = middle_of_face(coarse, index, from_m, to_m, about.area_m2(), progress);
   if (!middle) return {};
   const double middle_m = std::clamp(sign * middle->ahead_m, from_m, to_m);
   const double begin_m = std::max(from_m, middle_m - options.relief_m);
@@ -182,7 +186,7 @@ FaceMap find_face(const std::vector<PlacedTiles>& scans, const ChainageIndex& in
   for (std::size_t i = 0; i < face.cells.size(); ++i)
     if (profile.nearest(face.middle(i % face.columns, i / face.columns)).deviation_m < -options.inset_m)
       face.cells[i].kind = FaceKind::unseen;
-  for_each_cell(fine.points(index.between(begin_m, end_m), begin_m, end_m, 1, progress),
+  for_each_cell(fine.points(index, begin_m, end_m, 1, progress),
                 [&](std::uint32_t i, const FacePoint* begin, const FacePoint* end) {
                   const auto surface = farthest_surface(begin, end, options.least_points);
                   if (surface && face.cells[i].kind == FaceKind::unseen)

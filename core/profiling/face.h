@@ -7,7 +7,6 @@
 
 #include "core/design/design_tunnel.h"
 #include "core/foundation/progress.h"
-#include "core/geometry/polygon.h"
 #include "core/profiling/placed_tiles.h"
 
 namespace adit {
@@ -61,8 +60,8 @@ struct FaceOptions {
   double most_range_m = 45.0;
 };
 
-/// The farthest surface in the direction of drive, cell by cell. Without cells when the tunnel is open within sight, or
-/// too little of the face was seen.
+/// The farthest surface in the direction of drive, cell by cell, in the planes of the design. Without cells when the
+/// tunnel is open within sight, or too little of the face was seen.
 FaceMap find_face(const std::vector<PlacedTiles>& scans, const ChainageIndex& index, const DesignTunnel& design,
                   const FaceOptions& options, Progress& progress);
 

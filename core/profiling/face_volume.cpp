@@ -54,7 +54,8 @@ void for_each_inside(const Polygon& ring, const Visit& visit) {
 }
 
 struct Slice {
-  double from_m, to_m, curvature_per_m;
+  double from_m, to_m;
+  SliceShape shape;
 };
 
 /// Volume of a slice inside a ring and between the faces. The raster's area is scaled to the ring's own.
@@ -65,7 +66,7 @@ double between_in(const Polygon& ring, const Slice& slice, const FilledFace& fir
     ++points;
     const double a = first.at(x, z), b = second.at(x, z);
     const double length = std::min(slice.to_m, std::max(a, b)) - std::max(slice.from_m, std::min(a, b));
-    if (length > 0.0) sum += length * (1.0 - slice.curvature_per_m * x);
+    if (length > 0.0) sum += length * slice.shape.at({x, z});
   });
   return points == 0 ? 0.0 : sum / static_cast<double>(points) * std::abs(area_moment(ring).area_m2);
 }
@@ -145,8 +146,7 @@ FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const Dev
     for (std::size_t i = b; i < e; ++i) {
       progress.check();
       const double middle_m = map.row_chainage(begin + i);
-      const Slice slice{middle_m - 0.5 * map.step_s_m, middle_m + 0.5 * map.step_s_m,
-                        design.alignment().horizontal().at(middle_m).curvature_per_m};
+      const Slice slice{middle_m - 0.5 * map.step_s_m, middle_m + 0.5 * map.step_s_m, design.slice_shape(middle_m)};
       if (slice.to_m < least_m || slice.from_m > greatest_m) continue;
       const LinePolygon wanted = line_polygon(design.profile_at(middle_m), design.line_at(line, middle_m));
       part += Sums{between_in(rings[i], slice, from, to), between_in(wanted.ring, slice, from, to)};

@@ -19,9 +19,9 @@ struct FaceVolume {
   bool whole = false;       ///< false: the map does not hold both faces; no volume then
 };
 
-/// dV = ds * double integral of (1 - k x) dx dz over what lies inside a slice's outline and between the faces, on the
-/// faces' grid refined to 5 cm. Slices less than 40 % of whose outline is known (the walls end at the face) take the
-/// outline of the nearest that is better known. along_sigma_m: of each epoch's scans along the axis.
+/// dV = ds * double integral of (1 - k x) dx dz (SliceShape) over what lies inside a slice's outline and between the
+/// faces, on the faces' grid refined to 5 cm. Slices less than 40 % of whose outline is known (the walls end at the
+/// face) take the outline of the nearest that is better known. along_sigma_m: of each epoch's scans along the axis.
 FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const DeviationMap& map,
                           const DesignTunnel& design, const DesignLine& line, double before_along_sigma_m,
                           double after_along_sigma_m, const RegistrationResult& registration,

@@ -81,7 +81,8 @@ struct Comparison {
   BlockSums whole;
   std::vector<double> levels;
 
-  void add_cell(std::size_t r, std::size_t c, const ProfileStretch& stretch, double curvature_per_m, BlockSums& block) {
+  void add_cell(std::size_t r, std::size_t c, const ProfileStretch& stretch, const SliceShape& shape,
+                BlockSums& block) {
     const double q0 = static_cast<double>(c) * after.step_q_m;
     const double q1 = std::min(q0 + after.step_q_m, stretch.length_m());
     const double line_m2 = stretch.line_length_m(q0, q1) * after.step_s_m;
@@ -90,8 +91,8 @@ struct Comparison {
     if (old.kind != CellKind::measured || present.kind != CellKind::measured) return;
     const ProfilePoint at = stretch.at(0.5 * (q0 + q1));
     const double half_way_m = 0.5 * static_cast<double>(old.deviation_m + present.deviation_m);
-    const double x_m = at.position.x() + half_way_m * at.normal.x();
-    const Pair pair{line_m2 * std::max(0.0, 1.0 + at.curvature_per_m * half_way_m) * (1.0 - curvature_per_m * x_m),
+    const Eigen::Vector2d place = at.position + half_way_m * at.normal;
+    const Pair pair{line_m2 * std::max(0.0, 1.0 + at.curvature_per_m * half_way_m) * shape.at(place),
                     static_cast<double>(old.deviation_m - present.deviation_m), noise2(old) + noise2(present),
                     at.normal, 0.5 * static_cast<double>(old.incidence + present.incidence)};
     block.add(pair, sigma);
@@ -121,9 +122,9 @@ struct Comparison {
     for (std::size_t r = first; r < last; ++r) {
       const double chainage_m = after.row_chainage(r);
       const ProfileStretch stretch(design.profile_at(chainage_m));
-      const double curvature = design.alignment().horizontal().at(chainage_m).curvature_per_m;
+      const SliceShape shape = design.slice_shape(chainage_m);
       for (std::size_t c = 0; c < std::min(after.columns, stretch.columns(after.step_q_m)); ++c)
-        add_cell(r, c, stretch, curvature, blocks[c / columns]);
+        add_cell(r, c, stretch, shape, blocks[c / columns]);
     }
     const double middle_m = after.from_m + 0.5 * static_cast<double>(first + last) * after.step_s_m;
     const ProfileStretch stretch(design.profile_at(middle_m));

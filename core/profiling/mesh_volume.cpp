@@ -48,14 +48,12 @@ bool goes_around(const std::vector<Eigen::Vector3d>& loop, const Eigen::Vector2d
   return std::abs(turned_rad) > pi;
 }
 
-using Loop = std::vector<std::uint32_t>;
-
 /// Points of a mesh in tunnel coordinates.
 struct Places {
   std::vector<Eigen::Vector3d> points;  ///< (s, x, z)
   std::vector<char> known;              ///< zero beyond the axis
 
-  bool is_end(const Loop& loop, const DesignTunnel& design) const {
+  bool is_end(const MeshLoop& loop, const DesignTunnel& design) const {
     std::vector<Eigen::Vector3d> ring;
     for (const std::uint32_t point : loop) {
       if (known[point] == 0) return true;
@@ -89,7 +87,7 @@ MeshArrays tubes(const MeshArrays& mesh, const Places& places, const DesignTunne
     piece[root(b)] = root(c);
   }
   std::vector<char> is_tube(mesh.points.size(), 0);
-  for (const Loop& loop : boundary_loops(mesh))
+  for (const MeshLoop& loop : boundary_loops(mesh_from_arrays(mesh)))
     if (places.is_end(loop, design)) is_tube[root(loop.front())] = 1;
   MeshArrays kept{mesh.points, {}};
   for (const auto& triangle : mesh.triangles)
@@ -103,19 +101,22 @@ MeshInTunnel::MeshInTunnel(const MeshArrays& mesh, const DesignTunnel& design) {
   const Alignment& axis = design.alignment();
   const Places places = places_of(mesh, axis);
   const MeshArrays tunnel = tubes(mesh, places, design);
-  const FilledMesh whole = fill_holes(tunnel, [&](const Loop& loop) { return places.is_end(loop, design); });
+  const FilledMesh whole = fill_holes(tunnel, [&](const MeshLoop& loop) { return places.is_end(loop, design); });
   for (std::size_t t = 0; t < whole.mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = whole.mesh.triangles[t];
     if (places.known[a] == 0 || places.known[b] == 0 || places.known[c] == 0) continue;
     add({places.points[a], places.points[b], places.points[c]}, axis, t >= tunnel.triangles.size());
   }
-  for (const Loop& loop : boundary_loops(tunnel)) {
-    if (!places.is_end(loop, design)) continue;
+  for (const MeshLoop& loop : whole.open) {
     std::vector<Eigen::Vector3d> rim;
     for (const std::uint32_t point : loop)
       if (places.known[point] != 0) rim.push_back(places.points[point]);
-    if (rim.size() == loop.size()) flatten(rim, axis);
+    const bool end = rim.size() == loop.size() && places.is_end(loop, design);
+    if (end) flatten(rim, axis);
+    one_tube_ = one_tube_ && end;
   }
+  // Two ends, one to either side: otherwise the tube is torn, and something is missing between its pieces.
+  one_tube_ = one_tube_ && whole.joined && whole.open.size() == 2 && from_m_ < to_m_;
 }
 
 void MeshInTunnel::add(const std::array<Eigen::Vector3d, 3>& corners, const Alignment& axis, bool filled) {
@@ -162,7 +163,7 @@ MeshVolume MeshInTunnel::between(double from_m, double to_m) const {
     }
     return part;
   });
-  const MeshVolume volume{true, std::abs(sums.flux), sums.filled_m2, from_m >= from_m_ && to_m <= to_m_};
+  const MeshVolume volume{true, std::abs(sums.flux), sums.filled_m2, one_tube_ && from_m >= from_m_ && to_m <= to_m_};
   return volume;
 }
 

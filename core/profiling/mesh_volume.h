@@ -36,6 +36,7 @@ class MeshInTunnel {
 
   std::vector<Triangle> triangles_;
   double middle_s_m_ = 0.0;
+  bool one_tube_ = true;  ///< all its loops are closed, but for one end to either side
   double from_m_ = std::numeric_limits<double>::infinity();  ///< the flat ends: between them the mesh is closed
   double to_m_ = -std::numeric_limits<double>::infinity();
 };

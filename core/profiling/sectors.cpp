@@ -44,8 +44,7 @@ struct Slice {
   SliceShape shape;
   double volume(const Polygon& ring) const {
     const AreaMoment amount = area_moment(ring);
-    return std::abs(thickness_m * (shape.per_area * amount.area_m2 - shape.per_x * amount.moment_m3 -
-                                   shape.per_z * amount.moment_z_m3));
+    return std::abs(thickness_m * shape.of(amount.area_m2, amount.moment_m3, amount.moment_z_m3));
   }
 };
 

@@ -28,10 +28,7 @@ struct SliceSums {
   double opening_m2 = 0.0;
 
   SliceSums& operator+=(const SliceSums& other) {
-    amounts.design_m3 += other.amounts.design_m3;
-    amounts.excavated_m3 += other.amounts.excavated_m3;
-    amounts.overbreak_m3 += other.amounts.overbreak_m3;
-    amounts.underbreak_m3 += other.amounts.underbreak_m3;
+    add_weighted(amounts, 1.0, other.amounts);
     measured_m2 += other.measured_m2;
     interpolated_m2 += other.interpolated_m2;
     unseen_m2 += other.unseen_m2;
@@ -94,9 +91,7 @@ SliceSums slice_sums(const DeviationMap& map, std::size_t r, const DesignTunnel&
     if (wanted.growth_per_m != 0.0) grown = line_polygon(*prepared.profile, design.line_at(wanted, middle_m));
     const LinePolygon& there = grown ? *grown : prepared.line;
     const SliceAmounts amounts = slice_amounts(outline.points, there);
-    const auto volume = [&](const AreaMoment& a) {
-      return length_m * (shape.per_area * a.area_m2 - shape.per_x * a.moment_m3 - shape.per_z * a.moment_z_m3);
-    };
+    const auto volume = [&](const AreaMoment& a) { return length_m * shape.of(a.area_m2, a.moment_m3, a.moment_z_m3); };
     add_weighted(sums.amounts, 1.0,
                  {volume(there.design), volume(amounts.area), volume(amounts.over), volume(amounts.under)});
   }

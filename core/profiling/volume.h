@@ -26,7 +26,7 @@ struct MeshVolume {
   bool there = false;  ///< the job has a mesh
   double excavated_m3 = 0.0;
   double filled_m2 = 0.0;  ///< of holes and jagged ends within the stretch, closed by triangles
-  bool closed = false;     ///< otherwise the mesh ends within the stretch, and there is no volume
+  bool closed = false;     ///< otherwise the mesh ends within the stretch, or is torn, and there is no volume
 };
 
 /// One line, one stretch. sigma are one standard deviation.

@@ -1,7 +1,6 @@
 #pragma once
 // Holes of a surface, closed so that a volume can be taken.
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -10,18 +9,17 @@
 
 namespace adit {
 
-/// Points of every boundary loop, in order.
-std::vector<std::vector<std::uint32_t>> boundary_loops(const MeshArrays& mesh);
+/// Points of a boundary loop, in the order in which triangles that close it would run along its rim.
+using MeshLoop = std::vector<std::uint32_t>;
 
 struct FilledMesh {
-  MeshArrays mesh;  ///< the points of the input, its triangles, and the new ones behind them
-  std::size_t holes = 0;
-  double filled_m2 = 0.0;
+  MeshArrays mesh;             ///< the points of the input, its triangles, and the new ones behind them
+  std::vector<MeshLoop> open;  ///< loops that stayed as they were: on request, or because no triangles close them
+  bool joined = true;          ///< false: some triangles of the input fit to no others (three at one edge) and are out
 };
 
-/// Closes boundary loops by triangles of least area and bend (Liepa 2003, by CGAL). Loops, given by their
-/// points in order, for which `stays_open` holds stay as they are: the ends of a tunnel.
-FilledMesh fill_holes(const MeshArrays& mesh,
-                      const std::function<bool(const std::vector<std::uint32_t>& loop)>& stays_open);
+/// Closes boundary loops by triangles of least area and bend (Liepa 2003, by CGAL), but those for which `stays_open`
+/// holds: the ends of a tunnel.
+FilledMesh fill_holes(const MeshArrays& mesh, const std::function<bool(const MeshLoop& loop)>& stays_open);
 
 }  // namespace adit

@@ -8,17 +8,12 @@ namespace {
 
 /// Lengths of all boundary loops, longest first.
 std::vector<double> boundary_loops_m(const Mesh& mesh) {
+  const auto point = [&](std::uint32_t index) { return mesh.point(Mesh::VertexHandle(static_cast<int>(index))); };
   std::vector<double> lengths;
-  std::vector<char> seen(mesh.n_halfedges(), 0);
-  for (const auto start : mesh.halfedges()) {
-    if (!mesh.is_boundary(start) || seen[static_cast<std::size_t>(start.idx())] != 0) continue;
+  for (const auto& loop : boundary_loops(mesh)) {
     double length = 0.0;
-    auto half = start;
-    do {
-      seen[static_cast<std::size_t>(half.idx())] = 1;
-      length += (mesh.point(half.to()) - mesh.point(half.from())).norm();
-      half = half.next();
-    } while (half != start && seen[static_cast<std::size_t>(half.idx())] == 0);
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      length += (point(loop[(i + 1) % loop.size()]) - point(loop[i])).norm();
     lengths.push_back(length);
   }
   std::sort(lengths.begin(), lengths.end(), std::greater<>());
@@ -47,6 +42,22 @@ std::size_t components_of(const Mesh& mesh) {
 }
 
 }  // namespace
+
+std::vector<std::vector<std::uint32_t>> boundary_loops(const Mesh& mesh) {
+  std::vector<std::vector<std::uint32_t>> loops;
+  std::vector<char> seen(mesh.n_halfedges(), 0);
+  for (const auto start : mesh.halfedges()) {
+    if (!mesh.is_boundary(start) || seen[static_cast<std::size_t>(start.idx())] != 0) continue;
+    loops.emplace_back();
+    auto half = start;
+    do {
+      seen[static_cast<std::size_t>(half.idx())] = 1;
+      loops.back().push_back(static_cast<std::uint32_t>(half.from().idx()));
+      half = half.next();
+    } while (half != start && seen[static_cast<std::size_t>(half.idx())] == 0);
+  }
+  return loops;
+}
 
 MeshArrays mesh_arrays(const Mesh& mesh) {
   MeshArrays arrays;

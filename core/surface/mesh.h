@@ -29,6 +29,9 @@ struct MeshArrays {
 MeshArrays mesh_arrays(const Mesh& mesh);
 Mesh mesh_from_arrays(const MeshArrays& arrays);
 
+/// Points of every open end and hole, in the order in which triangles that close it would run along its rim.
+std::vector<std::vector<std::uint32_t>> boundary_loops(const Mesh& mesh);
+
 /// Counts, lengths and area; the deviations are left NaN.
 MeshSummary summarise(const Mesh& mesh);
 

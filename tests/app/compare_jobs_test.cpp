@@ -73,6 +73,14 @@ TEST(CompareJobsSlow, ARoundIsMeasuredBetweenTwoJobsAndTakenUpAgain) {
     return std::array{all.at("before"), all.at("face")};
   };
   EXPECT_EQ(json(again->results), json(state->results));
+
+  auto job = nlohmann::json::parse(io::read_text_file(folder / "job.json"));
+  job.erase("before");
+  job.erase("face");
+  std::ofstream(folder / "job.json") << job.dump(1);
+  tests::run(folder.path());
+  for (const char* file : {"face.csv", "layer.csv", "report/face.png", "report/layer.png"})
+    EXPECT_FALSE(fs::exists(folder / "out" / file)) << file << " shows what the job no longer asks for";
 }
 
 TEST(CompareJobsSlow, AnEarlierJobThatHasChangedIsRefused) {

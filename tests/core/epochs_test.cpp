@@ -124,6 +124,35 @@ TEST(FaceVolumeSlow, ARoundBetweenTwoFacesWithinTwoSigmas) {
   EXPECT_FALSE(cut.whole);
 }
 
+TEST(FaceVolumeSlow, TheSameRoundOnASteepAxisInBothPlanes) {
+  const Alignment level = tests::sample_axis(120.0);
+  const Alignment steep("steep", level.horizontal(), VerticalAlignment({{0.0, 0.0}, {120.0, 14.4}}));
+  const DesignTunnel design(steep, {{0.0, tests::arch_profile()}}, {{"excavation", 0.0}});
+  const auto rock_on = [&](double face_m) {
+    RockTunnelOptions options;
+    options.seed = 9;
+    options.from_m = 1.0;
+    options.face_m = face_m;
+    options.clutter = false;
+    return RockTunnel(design, options);
+  };
+  const RockTunnel before = rock_on(44.0), after = rock_on(48.0);
+  const auto earlier = scans_of(before, {32.0, 39.0}), later = scans_of(after, {33.0, 40.0, 44.0});
+  const double truth = true_volume_between(before, after);
+  Progress progress;
+  for (const SectionPlane plane : {SectionPlane::vertical, SectionPlane::square}) {
+    const DesignTunnel standing = design.standing(plane);
+    const FaceMap first = face_of(earlier, standing), second = face_of(later, standing);
+    const MapResult mapped = map_deviations(later, standing, 30.0, 50.0, {}, progress);
+    const FaceVolume volume =
+        volume_between(first, second, mapped.map, standing, {"excavation", 0.0}, 0.002, 0.002, {}, {}, progress);
+    ASSERT_TRUE(volume.whole) << words_of(plane);
+    EXPECT_NEAR(volume.advance_m, 4.0, 0.02) << words_of(plane);
+    EXPECT_NEAR(volume.excavated_m3, truth, 0.01 * truth) << words_of(plane);
+    EXPECT_LT(std::abs(volume.excavated_m3 - truth), 2.0 * volume.sigma_m3) << words_of(plane);
+  }
+}
+
 RegistrationResult registered(double sigma_m) {
   RegistrationResult registration;
   PlacedScan scan;

@@ -65,5 +65,18 @@ TEST(MeshVolume, WhatIsNoTunnelIsLeftOut) {
   EXPECT_NEAR(MeshInTunnel(mesh, design).between(20.0, 40.0).excavated_m3, whole, 1e-9 * whole);
 }
 
+TEST(MeshVolume, WhatIsNotClosedHasNone) {
+  const DesignTunnel design = tests::sample_design(tests::circle_profile());
+  const MeshArrays torn = tube(design, [](double s, double) { return s > 29.0 && s < 30.0; });
+  EXPECT_FALSE(MeshInTunnel(torn, design).between(20.0, 40.0).closed) << "two tubes with a gap between them";
+  EXPECT_FALSE(MeshInTunnel(torn, design).between(20.0, 25.0).closed) << "which of them is meant?";
+
+  MeshArrays branched = tube(design, [](double, double) { return false; });
+  branched.points.push_back(design.alignment().to_site({30.0, 0.0, 0.0}));
+  const auto& first = branched.triangles.front();
+  branched.triangles.push_back({first[0], first[1], static_cast<std::uint32_t>(branched.points.size() - 1)});
+  EXPECT_FALSE(MeshInTunnel(branched, design).between(20.0, 40.0).closed) << "three triangles at one edge";
+}
+
 }  // namespace
 }  // namespace adit

@@ -21,6 +21,7 @@ TEST(JobJson, EverythingOfTheDesignComesBackFromItsText) {
   job.chainage = JobChainage{10.0, 30.0, 2.0};
   job.rounds = {{7, 12.0, 16.0, 4.2}};
   job.driven_up_chainage = false;
+  job.sections = JobSections::both;
   job.zones = {{12.0, 13.0, -30.0, 60.0, "geological", "clay"}, {14.0, 15.0, -180.0, 180.0, "technical", ""}};
   job.tolerances = JobTolerances{"t.json", "", {{10.0, "A"}, {20.0, "B"}}};
   job.before = JobBefore{"earlier.json", "earlier_out", {0.05, 0.07}};
@@ -34,6 +35,7 @@ TEST(JobJson, EverythingOfTheDesignComesBackFromItsText) {
   EXPECT_EQ(back.lines, job.lines);
   EXPECT_EQ(back.zones, job.zones);
   EXPECT_FALSE(back.driven_up_chainage);
+  EXPECT_EQ(back.sections, JobSections::both);
   EXPECT_EQ(back.tolerances->rock_classes, job.tolerances->rock_classes);
   EXPECT_EQ(back.before->layer, job.before->layer);
   EXPECT_EQ(back.before->out, "earlier_out");
