@@ -17,11 +17,9 @@ json face_json(const FaceMap& face) {
 json between_json(const CompareResult& result) {
   const FaceVolume& between = result.between;
   if (!between.whole) return nullptr;
-  json one{{"advance_m", between.advance_m},
-           {"excavated_m3", between.excavated_m3},
-           {"sigma_m3", between.sigma_m3},
-           {"design_m3", between.design_m3},
-           {"guessed_m2", between.guessed_m2}};
+  json one{{"advance_m", between.advance_m},       {"sigma_advance_m", between.sigma_advance_m},
+           {"excavated_m3", between.excavated_m3}, {"sigma_m3", between.sigma_m3},
+           {"design_m3", between.design_m3},       {"guessed_m2", between.guessed_m2}};
   const bool round = result.drilled_m > 0.0;
   one["round"] = round ? json(result.round) : json(nullptr);
   one["pull_efficiency"] = round ? json(between.advance_m / result.drilled_m) : json(nullptr);
@@ -35,13 +33,18 @@ json between_json(const CompareResult& result) {
 json layer_json(const LayerResult& layer) {
   const bool said = layer.design.nominal_m > 0.0;
   const auto share = [&](double value) { return said ? json(value) : json(nullptr); };
-  return {{"minimum_m", said ? json(layer.design.minimum_m) : json(nullptr)},
+  const json sectors = layer.design.sectors.empty() ? json("all") : json(layer.design.sectors);
+  return {{"sectors", sectors},
+          {"minimum_m", said ? json(layer.design.minimum_m) : json(nullptr)},
           {"nominal_m", said ? json(layer.design.nominal_m) : json(nullptr)},
           {"surface_m2", layer.surface_m2},
           {"measured_m2", layer.measured_m2},
           {"mean_m", layer.mean_m},
           {"volume_m3", layer.volume_m3},
           {"sigma_volume_m3", layer.sigma_volume_m3},
+          {"missing_m2", layer.missing_m2},
+          {"whole_volume_m3", layer.whole_volume_m3},
+          {"sigma_whole_m3", layer.sigma_whole_m3},
           {"blocks", layer.blocks.size()},
           {"below_minimum", share(layer.below_minimum)},
           {"below_nominal", share(layer.below_nominal)},

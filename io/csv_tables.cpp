@@ -122,7 +122,8 @@ std::string sectors_csv(const Results& results) {
 std::string circles_csv(const Results& results) {
   std::string csv =
       "chainage_m,station_m,center_offset_m,center_height_m,horizontal_deviation_m,vertical_deviation_m,radius_m,"
-      "design_radius_m,ovality_m,major_clock_deg,rms_m,covered_deg\n";
+      "design_radius_m,ovality_m,major_clock_deg,rms_m,covered_deg,"
+      "sigma_center_m,sigma_radius_m\n";
   if (!results.profile) return csv;
   for (const Section& section : results.profile->sections) {
     const SectionCircle& c = section.circle;
@@ -131,7 +132,8 @@ std::string circles_csv(const Results& results) {
            csv_number(c.center.x(), 4) + "," + csv_number(c.center.y(), 4) + "," + csv_number(c.deviation_m.x(), 4) +
            "," + csv_number(c.deviation_m.y(), 4) + "," + csv_number(c.radius_m, 4) + "," +
            csv_number(c.design_radius_m, 4) + "," + csv_number(c.ovality_m, 4) + "," +
-           csv_number(c.major_clock_deg, 1) + "," + csv_number(c.rms_m, 4) + "," + csv_number(c.covered_deg, 0) + "\n";
+           csv_number(c.major_clock_deg, 1) + "," + csv_number(c.rms_m, 4) + "," + csv_number(c.covered_deg, 0) + "," +
+           csv_number(c.sigma_center_m, 4) + "," + csv_number(c.sigma_radius_m, 4) + "\n";
   }
   return csv;
 }
@@ -139,18 +141,22 @@ std::string circles_csv(const Results& results) {
 std::string rings_csv(const Results& results) {
   std::string csv =
       "ring,chainage_m,station_m,center_east_m,center_north_m,center_elevation_m,horizontal_deviation_m,"
-      "vertical_deviation_m,radius_m,ovality_m,major_clock_deg,rms_m,sigma_center_m,sigma_radius_m,tilt_deg,points\n";
+      "vertical_deviation_m,radius_m,ovality_m,major_clock_deg,rms_m,sigma_center_m,sigma_radius_m,tilt_deg,points,"
+      "design_radius_m,tolerance_m,verdict\n";
   if (!results.rings) return csv;
   const auto known = [](double value, int decimals) {
     return std::isfinite(value) ? csv_number(value, decimals) : std::string();
   };
+  const RingDesign& design = results.rings->design;
   for (const RingResult& r : results.rings->rings)
     csv += cell_word(r.ring) + "," + csv_number(r.chainage_m, 4) + "," + csv_number(r.station_m, 4) + "," +
            csv_number(r.center.x(), 4) + "," + csv_number(r.center.y(), 4) + "," + csv_number(r.center.z(), 4) + "," +
            csv_number(r.horizontal_deviation_m, 4) + "," + csv_number(r.vertical_deviation_m, 4) + "," +
            csv_number(r.radius_m, 4) + "," + known(r.ovality_m, 4) + "," + known(r.major_clock_deg, 1) + "," +
            csv_number(r.rms_m, 4) + "," + known(r.sigma_center_m, 4) + "," + known(r.sigma_radius_m, 4) + "," +
-           csv_number(r.tilt_deg, 2) + "," + std::to_string(r.residuals.size()) + "\n";
+           csv_number(r.tilt_deg, 2) + "," + std::to_string(r.residuals.size()) + "," +
+           (design.radius_m > 0.0 ? csv_number(design.radius_m, 4) : "") + "," +
+           (design.tolerance_m > 0.0 ? csv_number(design.tolerance_m, 4) + "," + words_of(r.verdict) : ",") + "\n";
   return csv;
 }
 

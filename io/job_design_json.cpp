@@ -201,13 +201,27 @@ JobBefore read_before(const JsonPlace& place, const fs::path& folder) {
   before.out = place.text_or("out", "");
   if (!place.has("layer")) return before;
   const JsonPlace layer = place.at("layer");
-  layer.only_keys({"minimum", "nominal"});
+  layer.only_keys({"minimum", "nominal", "sectors"});
   before.layer.minimum_m = layer.at("minimum").number_between(0.0, 2.0, "m");
   before.layer.nominal_m =
       layer.has("nominal") ? layer.at("nominal").number_between(0.0, 2.0, "m") : before.layer.minimum_m;
   if (before.layer.nominal_m < before.layer.minimum_m)
     layer.at("nominal").refuse("it is less than the minimum", "exchange them");
+  if (!layer.has("sectors")) return before;
+  for (const JsonPlace& sector : layer.at("sectors").items()) before.layer.sectors.push_back(sector.text());
+  if (before.layer.sectors.empty())
+    layer.at("sectors").refuse("no sector gets the layer", "name one, or leave \"sectors\" out for all");
   return before;
+}
+
+/// The sectors that get the layer are sectors of the job.
+void expect_sectors(const JsonPlace& layer, const Job& job) {
+  std::string all;
+  for (const Sector& sector : job.sectors) all += (all.empty() ? "" : ", ") + sector.name;
+  for (const JsonPlace& place : layer.at("sectors").items())
+    if (std::none_of(job.sectors.begin(), job.sectors.end(),
+                     [&](const Sector& sector) { return sector.name == place.text(); }))
+      place.refuse("there is no sector " + quoted_word(place.text()), "write one of: " + all);
 }
 
 JobStraightedge read_straightedge(const JsonPlace& place) {
@@ -268,6 +282,7 @@ void add_review(const Job& job, nlohmann::ordered_json& root) {
     if (!job.before->out.empty()) one["out"] = job.before->out;
     if (job.before->layer != LayerDesign{})
       one["layer"] = {{"minimum", job.before->layer.minimum_m}, {"nominal", job.before->layer.nominal_m}};
+    if (!job.before->layer.sectors.empty()) one["layer"]["sectors"] = job.before->layer.sectors;
     root["before"] = one;
   }
   if (job.face) root["face"] = true;
@@ -317,6 +332,7 @@ void read_job_design(const JsonPlace& place, const fs::path& folder, Job& job) {
   if (place.has("face")) job.face = place.at("face").yes_or_no();
   if (place.has("straightedge")) job.straightedge = read_straightedge(place.at("straightedge"));
   if (place.has("sectors")) job.sectors = read_sectors(place.at("sectors"));
+  if (job.before && !job.before->layer.sectors.empty()) expect_sectors(place.at("before").at("layer"), job);
   if (place.has("swell")) job.swell = place.at("swell").number_between(1.0, 3.0, "");
 }
 

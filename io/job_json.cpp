@@ -56,10 +56,11 @@ JobRings read_job_rings(const JsonPlace& place, const fs::path& folder) {
     rings.file = existing_file(place, folder);
     return rings;
   }
-  place.only_keys({"file", "target_offset", "center", "radius"});
+  place.only_keys({"file", "target_offset", "center", "radius", "tolerance"});
   rings.file = existing_file(place.at("file"), folder);
   if (place.has("target_offset")) rings.target_offset_m = place.at("target_offset").number_between(-0.5, 0.5, "m");
   if (place.has("radius")) rings.design.radius_m = place.at("radius").number_between(0.1, 100.0, "m");
+  if (place.has("tolerance")) rings.design.tolerance_m = place.at("tolerance").number_between(0.001, 1.0, "m");
   if (!place.has("center")) return rings;
   const auto center = place.at("center").numbers(2);
   for (const double value : center)
@@ -171,6 +172,7 @@ std::string job_text(const Job& job) {
     if (design.center_offset_m != 0.0 || design.center_height_m != 0.0)
       one["center"] = {design.center_offset_m, design.center_height_m};
     if (design.radius_m > 0.0) one["radius"] = design.radius_m;
+    if (design.tolerance_m > 0.0) one["tolerance"] = design.tolerance_m;
     root["rings"] = one;
   }
   if (const json changed = changed_options(job.options); !changed.empty()) root["options"] = changed;

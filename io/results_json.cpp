@@ -6,7 +6,6 @@
 
 #include "core/foundation/angle.h"
 #include "io/comparison_json.h"
-#include "io/review_tables.h"
 
 namespace adit::io {
 namespace {
@@ -149,7 +148,9 @@ json circle_json(const SectionCircle& circle) {
           {"ovality_m", number(circle.ovality_m)},
           {"major_clock_deg", number(circle.major_clock_deg)},
           {"rms_m", circle.rms_m},
-          {"covered_deg", circle.covered_deg}};
+          {"covered_deg", circle.covered_deg},
+          {"sigma_center_m", circle.sigma_center_m},
+          {"sigma_radius_m", circle.sigma_radius_m}};
 }
 
 json section_json(const Section& section) {
@@ -235,7 +236,7 @@ json volume_json(const Volume& volume) {
   return one;
 }
 
-json ring_json(const RingResult& ring) {
+json ring_json(const RingResult& ring, const RingDesign& design) {
   json residuals = json::array();
   for (const RingResidual& residual : ring.residuals)
     residuals.push_back(
@@ -247,6 +248,9 @@ json ring_json(const RingResult& ring) {
           {"horizontal_deviation_m", ring.horizontal_deviation_m},
           {"vertical_deviation_m", ring.vertical_deviation_m},
           {"radius_m", ring.radius_m},
+          {"design_radius_m", design.radius_m > 0.0 ? json(design.radius_m) : json(nullptr)},
+          {"tolerance_m", design.tolerance_m > 0.0 ? json(design.tolerance_m) : json(nullptr)},
+          {"verdict", design.tolerance_m > 0.0 ? json(words_of(ring.verdict)) : json(nullptr)},
           {"ovality_m", number(ring.ovality_m)},
           {"major_clock_deg", number(ring.major_clock_deg)},
           {"rms_m", ring.rms_m},
@@ -280,6 +284,7 @@ json clearance_json(const ClearanceResult& clearance, const Results& results) {
     one["intrusions"].push_back({{"points", intrusion.points},
                                  {"from", intrusion.from_m},
                                  {"to", intrusion.to_m},
+                                 {"cut", intrusion.cut},
                                  {"inside_m", deepest.inside_m},
                                  {"chainage", deepest.at.s_m},
                                  {"offset", deepest.at.x_m},
@@ -323,7 +328,7 @@ json tolerances_json(const ToleranceResult& tolerances) {
     one["checks"].push_back(
         {{"rock_class", c.rock_class},
          {"sector", c.sector},
-         {"verdict", verdict(c)},
+         {"verdict", words_of(c.verdict())},
          {"surface_m2", c.surface_m2},
          {"coverage", c.coverage()},
          {"mean_overbreak_m", c.mean_overbreak_m},
@@ -337,6 +342,10 @@ json tolerances_json(const ToleranceResult& tolerances) {
          {"max_underbreak_chainage", c.max_underbreak_m > 0.0 ? json(c.max_underbreak_chainage_m) : json(nullptr)},
          {"under_limit_m2", c.under_limit_m2},
          {"max_underbreak_area_m2", c.max_underbreak_area_m2},
+         {"sure_mean_overbreak_m", c.sure_mean_overbreak_m},
+         {"sure_overbreak_m", c.sure_overbreak_m},
+         {"sure_underbreak_m", c.sure_underbreak_m},
+         {"sure_underbreak_area_m2", c.sure_underbreak_area_m2},
          {"limit_max_underbreak_area_m2", limit_json(c.limits.max_underbreak_area_m2)}});
   return one;
 }
@@ -388,7 +397,7 @@ std::string results_text(const Results& results) {
   if (results.compare) add_comparison(*results.compare, root);
   if (results.rings) {
     root["rings"] = json::array();
-    for (const RingResult& ring : results.rings->rings) root["rings"].push_back(ring_json(ring));
+    for (const RingResult& ring : results.rings->rings) root["rings"].push_back(ring_json(ring, results.rings->design));
   }
   if (results.truth) root["truth"] = truth_json(*results.truth);
   root["findings"] = findings_json(all_findings(results));

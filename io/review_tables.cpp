@@ -19,10 +19,6 @@ std::string limit(double value) {
 
 }  // namespace
 
-const char* verdict(const ToleranceCheck& check) {
-  return check.broken() ? "broken" : check.kept() ? "kept" : "not shown";
-}
-
 std::string zones_csv(const Results& results) {
   std::string csv =
       "zone,from_m,to_m,from_deg,to_deg,reason,note,surface_m2,coverage,overbreak_m3,underbreak_m3,max_overbreak_m\n";
@@ -45,17 +41,32 @@ std::string tolerances_csv(const Results& results) {
   std::string csv =
       "set,rock_class,sector,verdict,surface_m2,coverage,mean_overbreak_m,limit_mean_overbreak_m,max_overbreak_m,"
       "limit_max_overbreak_m,max_overbreak_chainage_m,over_limit_m2,max_underbreak_m,limit_max_underbreak_m,"
-      "max_underbreak_chainage_m,under_limit_m2,max_underbreak_area_m2,limit_max_underbreak_area_m2\n";
+      "max_underbreak_chainage_m,under_limit_m2,max_underbreak_area_m2,limit_max_underbreak_area_m2,"
+      "sure_mean_overbreak_m,sure_overbreak_m,sure_underbreak_m,sure_underbreak_area_m2\n";
   if (!results.volume) return csv;
   for (const ToleranceCheck& c : results.volume->tolerances.checks)
-    csv += row({cell_word(results.volume->tolerances.set), cell_word(c.rock_class), cell_word(c.sector), verdict(c),
-                csv_number(c.surface_m2, 3), csv_number(c.coverage(), 4), csv_number(c.mean_overbreak_m, 4),
-                limit(c.limits.mean_overbreak_m), csv_number(c.max_overbreak_m, 4), limit(c.limits.max_overbreak_m),
+    csv += row({cell_word(results.volume->tolerances.set),
+                cell_word(c.rock_class),
+                cell_word(c.sector),
+                words_of(c.verdict()),
+                csv_number(c.surface_m2, 3),
+                csv_number(c.coverage(), 4),
+                csv_number(c.mean_overbreak_m, 4),
+                limit(c.limits.mean_overbreak_m),
+                csv_number(c.max_overbreak_m, 4),
+                limit(c.limits.max_overbreak_m),
                 c.max_overbreak_m > 0.0 ? csv_number(c.max_overbreak_chainage_m, 3) : std::string(),
-                csv_number(c.over_limit_m2, 3), csv_number(c.max_underbreak_m, 4), limit(c.limits.max_underbreak_m),
+                csv_number(c.over_limit_m2, 3),
+                csv_number(c.max_underbreak_m, 4),
+                limit(c.limits.max_underbreak_m),
                 c.max_underbreak_m > 0.0 ? csv_number(c.max_underbreak_chainage_m, 3) : std::string(),
-                csv_number(c.under_limit_m2, 3), csv_number(c.max_underbreak_area_m2, 3),
-                limit(c.limits.max_underbreak_area_m2)});
+                csv_number(c.under_limit_m2, 3),
+                csv_number(c.max_underbreak_area_m2, 3),
+                limit(c.limits.max_underbreak_area_m2),
+                csv_number(c.sure_mean_overbreak_m, 4),
+                csv_number(c.sure_overbreak_m, 4),
+                csv_number(c.sure_underbreak_m, 4),
+                csv_number(c.sure_underbreak_area_m2, 3)});
   return csv;
 }
 

@@ -19,7 +19,4 @@ std::string clearance_csv_row(const ClearanceResult& clearance, const ClearanceP
 std::string face_csv(const CompareResult& result);   ///< one row a cell of the face
 std::string layer_csv(const CompareResult& result);  ///< one row a block of about a square metre
 
-/// "kept", "broken", or "not shown" where too little was seen to say the first.
-const char* verdict(const ToleranceCheck& check);
-
 }  // namespace adit::io

@@ -83,7 +83,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToleranceRow, rock_class, sector, mean_overbr
                                    max_underbreak_m, max_underbreak_area_m2)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToleranceCheck, rock_class, sector, limits, surface_m2, measured_m2,
                                    mean_overbreak_m, max_overbreak_m, max_overbreak_chainage_m, max_underbreak_m,
-                                   max_underbreak_chainage_m, max_underbreak_area_m2, over_limit_m2, under_limit_m2)
+                                   max_underbreak_chainage_m, max_underbreak_area_m2, sure_mean_overbreak_m,
+                                   sure_overbreak_m, sure_underbreak_m, sure_underbreak_area_m2, over_limit_m2,
+                                   under_limit_m2)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToleranceResult, set, source, verified_by, checks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeResult, lines, rounds, zones, tolerances, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshSummary, points, triangles, edges, boundary_loops, components, area_m2,
@@ -91,15 +93,16 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MeshSummary, points, triangles, edges, bounda
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SurfaceResult, mesh, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TunnelPoint, s_m, x_m, z_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClearancePoint, scan, at, inside_m)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Intrusion, points, from_m, to_m, deepest, deepest_site)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Intrusion, points, from_m, to_m, cut, deepest, deepest_site)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClearanceResult, line, line_offset_m, points, intrusions)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaceVolume, excavated_m3, sigma_m3, design_m3, from_m, to_m, advance_m, guessed_m2,
-                                   whole)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaceVolume, excavated_m3, sigma_m3, design_m3, from_m, to_m, advance_m,
+                                   sigma_advance_m, guessed_m2, whole)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RockLeft, mean_m, most_m, over_03_share)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LayerDesign, minimum_m, nominal_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LayerDesign, minimum_m, nominal_m, sectors)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LayerBlock, chainage_m, p_m, measured_m2, mean_m, sigma_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LayerResult, design, surface_m2, measured_m2, mean_m, volume_m3, sigma_volume_m3,
-                                   below_minimum, below_nominal, from_nominal, blocks)
+                                   missing_m2, whole_volume_m3, sigma_whole_m3, below_minimum, below_nominal,
+                                   from_nominal, blocks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChangeResult, level_m, compared_m2, inwards_m2, outwards_m2, inwards_m3, outwards_m3)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UndulationDirection, places, max_depth_m, chainage_m, p_m, depth_95_m, over_limit,
                                    max_ratio)
@@ -110,8 +113,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CompareResult, before, face_before, face, bet
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingResidual, point, clock_deg, residual_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingResult, ring, center, chainage_m, station_m, horizontal_deviation_m,
                                    vertical_deviation_m, radius_m, ovality_m, major_clock_deg, rms_m, sigma_center_m,
-                                   sigma_radius_m, tilt_deg, residuals)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingsResult, rings, findings)
+                                   sigma_radius_m, verdict, tilt_deg, residuals)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingDesign, center_offset_m, center_height_m, radius_m, tolerance_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RingsResult, design, rings, findings)
 
 }  // namespace adit
 

@@ -51,7 +51,8 @@ std::array<std::uint8_t, 4> bytes_of(const Colour& c) {
   return {byte(c.red), byte(c.green), byte(c.blue), 255};
 }
 
-void paint_cell(Picture& picture, int x0, int y0, int size, const MapCell& cell, const DeviationScale& scale) {
+void paint_cell(Picture& picture, int x0, int y0, int size, const MapCell& cell, const DeviationScale& scale,
+                bool neutral_within_spread) {
   if (cell.kind == CellKind::opening) {
     for (int y = y0; y < y0 + size; ++y)
       for (int x = x0; x < x0 + size; ++x)
@@ -59,7 +60,8 @@ void paint_cell(Picture& picture, int x0, int y0, int size, const MapCell& cell,
   }
   if (!has_rock(cell.kind)) return;
   const bool guessed = cell.kind == CellKind::interpolated;
-  const Colour colour = deviation_colour(scale, static_cast<double>(cell.deviation_m));
+  const bool neutral = neutral_within_spread && std::abs(cell.deviation_m) <= cell.spread_m;
+  const Colour colour = neutral ? colours::light_grey : deviation_colour(scale, static_cast<double>(cell.deviation_m));
   const auto fill = bytes_of(guessed ? mixed(colour, colours::white, 0.55) : colour);
   for (int y = y0; y < y0 + size; ++y)
     for (int x = x0; x < x0 + size; ++x) picture.set_pixel(x, y, fill);
@@ -67,7 +69,8 @@ void paint_cell(Picture& picture, int x0, int y0, int size, const MapCell& cell,
     picture.set_pixel(x0 + size / 2, y0 + size / 2, bytes_of(mixed(colour, colours::black, 0.5)));
 }
 
-Picture picture_of(const DeviationMap& map, const Strip& strip, const DeviationScale& scale) {
+Picture picture_of(const DeviationMap& map, const Strip& strip, const DeviationScale& scale,
+                   bool neutral_within_spread) {
   const int rows = static_cast<int>(strip.row_end - strip.row_begin);
   const int columns = static_cast<int>(map.columns);
   const int size = std::clamp(most_pixels / std::max(rows, columns), 1, cell_pixels);
@@ -75,7 +78,8 @@ Picture picture_of(const DeviationMap& map, const Strip& strip, const DeviationS
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c)
       paint_cell(picture, r * size, c * size, size,
-                 map.cell(strip.row_begin + static_cast<std::size_t>(r), static_cast<std::size_t>(c)), scale);
+                 map.cell(strip.row_begin + static_cast<std::size_t>(r), static_cast<std::size_t>(c)), scale,
+                 neutral_within_spread);
   return picture;
 }
 
@@ -133,7 +137,7 @@ void draw_strip(Canvas& canvas, const MapStrip& place, const DeviationMap& map, 
   const Rect& rect = place.rect;
   const PlotArea area{rect, place.from_m, place.to_m, 0.0, static_cast<double>(map.columns) * map.step_q_m};
   canvas.hatch({ring_of(rect)}, {colours::light_grey, 0.15, {}}, 1.2, M_PI / 4.0);
-  canvas.picture(picture_of(map, strip, scale), rect, false);
+  canvas.picture(picture_of(map, strip, scale, texts.neutral_within_spread), rect, false);
   draw_marks(canvas, area, texts.marks);
   draw_rounds(canvas, area, texts.rounds);
   canvas.frame(rect, {colours::grey, 0.2, {}});
@@ -152,18 +156,24 @@ void draw_legend(Canvas& canvas, const Rect& rect, const DeviationScale& scale, 
   const Rect unseen{x, rect.top + 2.6, 4.0, 2.6}, guessed{x, rect.top + 6.6, 4.0, 2.6};
   canvas.hatch({ring_of(unseen)}, {colours::light_grey, 0.15, {}}, 1.0, M_PI / 4.0);
   canvas.frame(unseen, {colours::grey, 0.12, {}});
-  canvas.fill(guessed, mixed(deviation_colour(scale, 0.6 * scale.most_m), colours::white, 0.55));
-  for (const double down : {0.8, 1.8})
-    for (const double right : {0.5, 1.5, 2.5, 3.5})
-      canvas.disc({guessed.left + right, guessed.top + down}, 0.12,
-                  mixed(deviation_colour(scale, 0.6 * scale.most_m), colours::black, 0.5));
+  if (texts.neutral_within_spread) {
+    canvas.fill(guessed, colours::light_grey);
+  } else {
+    const Colour full = deviation_colour(scale, 0.6 * scale.most_m);
+    canvas.fill(guessed, mixed(full, colours::white, 0.55));
+    for (const double down : {0.8, 1.8})
+      for (const double right : {0.5, 1.5, 2.5, 3.5})
+        canvas.disc({guessed.left + right, guessed.top + down}, 0.12, mixed(full, colours::black, 0.5));
+  }
   canvas.frame(guessed, {colours::grey, 0.12, {}});
   canvas.text({x + 5.0, unseen.centre().y()}, "not seen", {.size_mm = text_mm, .down = Down::middle});
   const Rect open{x + 28.0, unseen.top, unseen.width, unseen.height};
   canvas.hatch({ring_of(open)}, {colours::black, 0.25, {}}, 0.8, -M_PI / 4.0);
   canvas.frame(open, {colours::grey, 0.12, {}});
   canvas.text({open.right() + 1.0, open.centre().y()}, "open", {.size_mm = text_mm, .down = Down::middle});
-  canvas.text({x + 5.0, guessed.centre().y()}, "interpolated", {.size_mm = text_mm, .down = Down::middle});
+  canvas.text({x + 5.0, guessed.centre().y()},
+              texts.neutral_within_spread ? "no change for certain (95 %)" : "interpolated",
+              {.size_mm = text_mm, .down = Down::middle});
   canvas.text({x, guessed.bottom() + 0.8}, "from line: " + texts.line, {.size_mm = text_mm, .colour = colours::grey});
 }
 

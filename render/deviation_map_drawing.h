@@ -26,6 +26,7 @@ struct MapTexts {
   std::vector<LineMark> marks;
   std::vector<JobRound> rounds;
   LegendWords words = {};
+  bool neutral_within_spread = false;  ///< a map of changes: what is no more than its level of detection is grey
 };
 
 /// Ticks every few metres of p, the crown and the corners, of the profile at the middle of the map.

@@ -62,7 +62,8 @@ void draw_face(Canvas& canvas, const Rect& rect, const std::string& title, const
               {.size_mm = text_mm});
   canvas.text({rect.left, rect.bottom() - 2.0},
               fixed(summary.least_m, 2) + " to " + fixed(summary.greatest_m, 2) + ", seen " + percent(summary.share()) +
-                  ", hidden (grey) " + fixed(summary.hidden_m2, 1) + " m\u00b2",
+                  ", hidden (grey) " + fixed(summary.hidden_m2, 1) + " m\u00b2, not seen: white; cells " +
+                  fixed(100.0 * face.step_m, 0) + " cm",
               {.size_mm = text_mm});
 }
 

@@ -59,6 +59,12 @@ void draw_deviation_legend(Canvas& canvas, const Rect& rect, const DeviationScal
                 {.size_mm = text_mm, .across = Across::centre});
   }
   canvas.text({rect.right() + 5.0, bottom + 0.3}, "cm", {.size_mm = text_mm});
+  for (const LegendMark& mark : words.marks) {
+    if (mark.value_m < boundaries.front() || mark.value_m > boundaries.back()) continue;
+    const double x = rect.left + (mark.value_m - boundaries.front()) / scale.step_m * box_width;
+    canvas.line({x, top - 0.6}, {x, bottom + 3.2}, {colours::black, 0.3, {}});
+    canvas.text({x, bottom + 3.3}, mark.name, {.size_mm = text_mm, .bold = true, .across = Across::centre});
+  }
   canvas.text({zero - 1.0, rect.top}, words.below,
               {.size_mm = text_mm, .colour = colours::underbreak, .across = Across::right});
   canvas.text({zero + 1.0, rect.top}, words.above, {.size_mm = text_mm, .colour = colours::red});

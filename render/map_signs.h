@@ -15,10 +15,17 @@ double draw_scale_bar(Canvas& canvas, const PaperPoint& at, double mm_per_m, dou
 /// An arrow to the north about `centre`; clockwise_rad is the direction of north on the paper, from up.
 void draw_north_arrow(Canvas& canvas, const PaperPoint& centre, double length_mm, double clockwise_rad);
 
-/// What stands over the two sides of a legend.
+/// A value that is marked on a legend.
+struct LegendMark {
+  double value_m = 0.0;
+  std::string name;
+};
+
+/// What stands over the two sides of a legend, and what is marked under it.
 struct LegendWords {
   std::string below = "underbreak";
   std::string above = "overbreak";
+  std::vector<LegendMark> marks = {};
 };
 
 /// Boxes of the classes side by side, pointed at the ends (and beyond), with their boundaries in cm below and

@@ -1,11 +1,13 @@
 // adit axis FILE: the coordinate list of an axis, or chainage, offset and height of points.
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "app/command_line/command.h"
 #include "core/foundation/angle.h"
@@ -26,6 +28,8 @@ struct Arguments {
   std::string points;
   double every_m = 1.0;
   std::optional<double> start_m;
+  std::optional<double> from_m, to_m;  ///< of the list
+  bool main_points = false;
 };
 
 /// A number of the output: how many decimals it is given, and whether there is one.
@@ -88,14 +92,31 @@ class Rows {
   json rows_ = json::array();
 };
 
-/// Both ends and every whole multiple of the interval between them.
-std::vector<double> listed_chainages(double from_m, double to_m, double every_m) {
+/// Both ends, every whole multiple of the interval between them and, if wanted, where elements of the plan begin, where
+/// grades meet and where their curves begin and end. Sorted, each once.
+std::vector<double> listed_chainages(const Arguments& arguments, const Alignment& axis) {
   constexpr double same_m = 1e-6, most = 1e7;
+  const HorizontalAlignment& plan = axis.horizontal();
+  const double from_m = std::max(plan.from_m(), arguments.from_m.value_or(plan.from_m()));
+  const double to_m = std::min(plan.to_m(), arguments.to_m.value_or(plan.to_m()));
+  const double every_m = arguments.every_m;
+  if (!(from_m < to_m))
+    throw Error("there is nothing of the axis between them", "--from, --to",
+                "the axis runs from " + short_number(plan.from_m()) + " to " + short_number(plan.to_m()));
   if ((to_m - from_m) / every_m > most) throw Error("more than 10 million rows", "--every", "use a larger interval");
-  std::vector<double> chainages{from_m};
-  for (double k = std::floor(from_m / every_m) + 1.0; k * every_m < to_m - same_m; ++k)
-    if (k * every_m > from_m + same_m) chainages.push_back(k * every_m);
-  chainages.push_back(to_m);
+  std::vector<double> chainages{from_m, to_m};
+  for (double k = std::floor(from_m / every_m) + 1.0; k * every_m < to_m; ++k) chainages.push_back(k * every_m);
+  if (arguments.main_points) {
+    for (std::size_t i = 0; i < plan.elements().size(); ++i) chainages.push_back(plan.element_from_m(i));
+    for (std::size_t i = 0; i < axis.vertical().points().size(); ++i) {
+      const VerticalAlignment::CurveExtent curve = axis.vertical().curve_extent(i);
+      chainages.insert(chainages.end(), {curve.from_m, axis.vertical().points()[i].chainage_m, curve.to_m});
+    }
+  }
+  std::erase_if(chainages, [&](double s) { return s < from_m || s > to_m; });
+  std::sort(chainages.begin(), chainages.end());
+  chainages.erase(std::unique(chainages.begin(), chainages.end(), [](double a, double b) { return b - a <= same_m; }),
+                  chainages.end());
   return chainages;
 }
 
@@ -123,12 +144,28 @@ std::vector<Number> row_at(const Alignment& axis, double chainage_m) {
 }
 
 int list_coordinates(const Arguments& arguments, const Alignment& axis, bool as_json) {
-  const HorizontalAlignment& plan = axis.horizontal();
-  Rows rows(as_json, false, row_at(axis, plan.from_m()));
-  for (const double chainage_m : listed_chainages(plan.from_m(), plan.to_m(), arguments.every_m))
-    rows.add(std::nullopt, row_at(axis, chainage_m));
-  rows.end({{"file", arguments.file}, {"alignment", axis.name()}}, "rows");
+  const std::vector<double> chainages = listed_chainages(arguments, axis);
+  Rows rows(as_json, false, row_at(axis, chainages.front()));
+  for (const double chainage_m : chainages) rows.add(std::nullopt, row_at(axis, chainage_m));
+  json about{{"file", arguments.file}, {"alignment", axis.name()}};
+  if (!axis.cant().empty()) {
+    about["cant_base_m"] = axis.cant().base_m();
+    about["cant_from"] = axis.cant().stations().front().chainage_m;
+    about["cant_to"] = axis.cant().stations().back().chainage_m;
+  }
+  rows.end(std::move(about), "rows");
   return exit_good;
+}
+
+/// What the column cant_m cannot say of itself, on stderr.
+void print_cant_note(const Cant& cant) {
+  if (cant.empty()) return;
+  const bool slope = cant.base_m() == 1.0;
+  std::fprintf(stderr, "adit: cant_m is %s, known from chainage %s to %s; beyond them it is as there\n",
+               slope ? "a slope, in metres for every metre of width"
+                     : ("the height of one edge over the other, " + short_number(cant.base_m()) + " m apart").c_str(),
+               short_number(cant.stations().front().chainage_m).c_str(),
+               short_number(cant.stations().back().chainage_m).c_str());
 }
 
 /// Where a point stands; without a grade line its height is not known.
@@ -194,9 +231,16 @@ Action declare_axis(CLI::App& command) {
   command.add_option("--name", arguments->name, "which alignment of a file that holds several");
   auto* every = command.add_option("--every", arguments->every_m, "list whole multiples of this chainage [m] (1)")
                     ->check(CLI::Range(0.001, 1e6));
+  auto* from = command.add_option("--from", arguments->from_m, "list from this chainage on [m]");
+  auto* to = command.add_option("--to", arguments->to_m, "list up to this chainage [m]");
+  auto* main_points =
+      command.add_flag("--main-points", arguments->main_points, "list also where elements begin and grades meet");
   command.add_option("--points", arguments->points, "points to find on the axis: id,east,north,elevation")
       ->check(some_name)
-      ->excludes(every);
+      ->excludes(every)
+      ->excludes(from)
+      ->excludes(to)
+      ->excludes(main_points);
   command.add_option("--start", arguments->start_m, "chainage of the first point, for files that state none [m]")
       ->check(CLI::Range(-1e6, 1e7));
   return [arguments](const CommonOptions& common, Progress&) {
@@ -204,7 +248,12 @@ Action declare_axis(CLI::App& command) {
       throw Error("no number of metres", "--every", "write one, for instance 1.0");
     const io::AxisFile file = io::read_axis(arguments->file, arguments->start_m);
     const io::AxisOfFile& read = io::named_axis(file, arguments->name);
-    if (!common.quiet) print_findings(file, read);
+    for (const auto& [name, value] : {std::pair("--from", arguments->from_m), std::pair("--to", arguments->to_m)})
+      if (value && !std::isfinite(*value)) throw Error("no number of metres", name, "write one, for instance 120.0");
+    if (!common.quiet) {
+      print_findings(file, read);
+      if (arguments->points.empty()) print_cant_note(read.axis->cant());
+    }
     if (read.grade_refusal) std::fprintf(stderr, "adit: %s\n", read.grade_refusal->what());
     const int listed = arguments->points.empty() ? list_coordinates(*arguments, *read.axis, common.json)
                                                  : list_points(*arguments, *read.axis, common);

@@ -56,6 +56,11 @@ void add_volumes(std::string& text, const VolumeResult& result) {
         volume.slices.overbreak_m3, 2.0 * volume.sigma_overbreak_m3, volume.slices.underbreak_m3,
         2.0 * volume.sigma_underbreak_m3);
   }
+  const auto other = [&](const Volume& volume) {
+    return std::abs(volume.slices.excavated_m3 - result.lines.front().slices.excavated_m3) > 0.005;
+  };
+  if (std::any_of(result.lines.begin(), result.lines.end(), other))
+    text += "  (excavated differs between lines where nothing was seen: there each counts up to itself)\n";
 }
 
 void add_review(std::string& text, const Results& results) {
@@ -74,9 +79,13 @@ void add_review(std::string& text, const Results& results) {
   if (!results.volume->zones.empty()) add(text, "  unassigned: overbreak %.2f m3\n", rest_m3);
   const ToleranceResult& tolerances = results.volume->tolerances;
   if (tolerances.set.empty()) return;
-  const auto kept = std::count_if(tolerances.checks.begin(), tolerances.checks.end(),
-                                  [](const ToleranceCheck& check) { return check.kept(); });
-  add(text, "\nTolerances \"%s\": %td of %zu kept\n", tolerances.set.c_str(), kept, tolerances.checks.size());
+  const auto kept = std::count_if(tolerances.checks.begin(), tolerances.checks.end(), [](const ToleranceCheck& check) {
+    return check.verdict() == ToleranceVerdict::kept;
+  });
+  const auto broken = std::count_if(tolerances.checks.begin(), tolerances.checks.end(),
+                                    [](const ToleranceCheck& check) { return check.broken(); });
+  add(text, "\nTolerances \"%s\": %td of %zu kept, %td broken\n", tolerances.set.c_str(), kept,
+      tolerances.checks.size(), broken);
 }
 
 void add_face(std::string& text, const char* epoch, const FaceMap& face) {
@@ -90,12 +99,15 @@ void add_comparison(std::string& text, const CompareResult& result) {
   add_face(text, "before", result.face_before);
   add_face(text, "of this job", result.face);
   if (result.between.whole)
-    add(text, "  between them %.3f m and %.2f +- %.2f m3\n", result.between.advance_m, result.between.excavated_m3,
-        2.0 * result.between.sigma_m3);
+    add(text, "  between them %.3f +- %.3f m and %.2f +- %.2f m3\n", result.between.advance_m,
+        2.0 * result.between.sigma_advance_m, result.between.excavated_m3, 2.0 * result.between.sigma_m3);
   if (!result.before.empty()) {
     const LayerResult& layer = result.layer;
     add(text, "\nAgainst \"%s\": %.1f mm inwards on the mean, %.2f +- %.2f m3, of %.1f m2 measured in both\n",
         result.before.c_str(), 1e3 * layer.mean_m, layer.volume_m3, 2.0 * layer.sigma_volume_m3, layer.measured_m2);
+    if (layer.missing_m2 > 0.0)
+      add(text, "  with the mean on the %.1f m2 that were not: %.2f +- %.2f m3\n", layer.missing_m2,
+          layer.whole_volume_m3, 2.0 * layer.sigma_whole_m3);
     if (layer.design.nominal_m > 0.0)
       add(text,
           "  square metres below the minimum of %.0f mm: %.1f %%, from there to %.0f mm: %.1f %%, more: %.1f %%\n",
@@ -117,7 +129,14 @@ std::string millimetres(double metres) {
 }
 
 void add_rings(std::string& text, const RingsResult& result) {
-  add(text, "\nRings: %zu (deviations of the centre: right and up positive)\n", result.rings.size());
+  add(text, "\nRings: %zu (deviations of the centre: right and up positive", result.rings.size());
+  if (result.design.radius_m > 0.0) add(text, "; design radius %.4f m", result.design.radius_m);
+  if (result.design.tolerance_m > 0.0) {
+    const auto kept = std::count_if(result.rings.begin(), result.rings.end(),
+                                    [](const RingResult& ring) { return ring.verdict == ToleranceVerdict::kept; });
+    add(text, "; %td within %.1f mm", kept, 1e3 * result.design.tolerance_m);
+  }
+  text += ")\n";
   add(text, "  %-10s %12s %10s %10s %10s %10s %8s %7s\n", "ring", "chainage", "horizontal", "vertical", "radius",
       "ovality", "rms", "points");
   for (const RingResult& ring : result.rings)

@@ -24,10 +24,14 @@ bool wanted(const JobState& state) {
 
 std::string depends_on(const JobState& state) {
   const Job& job = state.job;
-  std::string text = "compare 4|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "") +
+  std::string text = "compare 5|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "") +
                      (job.driven_up_chainage ? "" : "|down");
   if (job.before)
     text += "|" + short_number(job.before->layer.minimum_m) + "," + short_number(job.before->layer.nominal_m);
+  if (job.before)
+    for (const std::string& sector : job.before->layer.sectors) text += "|layer " + sector;
+  for (const Sector& sector : job.sectors)
+    text += "|" + sector.name + "," + short_number(sector.from_deg) + "," + short_number(sector.to_deg);
   if (job.straightedge)
     text += "|" + short_number(job.straightedge->length_m) + "," + short_number(job.straightedge->limit_ratio);
   for (const JobRound& round : job.rounds)
@@ -167,19 +171,21 @@ void compare_surfaces(JobState& state, const JobState& before, const std::vector
   const DeviationMap& map = *state.map;
   const MapResult earlier = map_deviations(scans, *state.design, map.from_m, map.to_m, state.job.options.profiling,
                                            progress, state.memory_bytes / 4);
-  MapChange change = compare_maps(earlier.map, map, *state.design, state.job.before->layer, before.results.registration,
-                                  state.results.registration, state.job.options.profiling.range_bias_sigma_m);
+  const Job& job = state.job;
+  MapChange change = compare_maps(earlier.map, map, *state.design, job.before->layer, job.sectors,
+                                  before.results.registration, state.results.registration, job.options.profiling);
   result.layer = std::move(change.layer);
   result.change = change.change;
   state.change = std::move(change.thickness);
   if (result.layer.below_minimum > 0.0) {
     char thin[200];
-    std::snprintf(
-        thin, sizeof thin,
-        "%.1f %% of %zu square metres are thinner than the minimum of %.0f mm, the floor and what was left bare "
-        "on purpose among them",
-        100.0 * result.layer.below_minimum, result.layer.blocks.size(), 1e3 * result.layer.design.minimum_m);
-    result.findings.push_back({Severity::warning, "layer", thin, "look at report/layer.png and layer.csv"});
+    std::snprintf(thin, sizeof thin, "%.1f %% of %zu square metres are thinner than the minimum of %.0f mm%s",
+                  100.0 * result.layer.below_minimum, result.layer.blocks.size(), 1e3 * result.layer.design.minimum_m,
+                  job.before->layer.sectors.empty() ? ", the floor and what was left bare on purpose among them" : "");
+    result.findings.push_back({Severity::warning, "layer", thin,
+                               job.before->layer.sectors.empty()
+                                   ? "state the \"sectors\" that get the layer; look at report/layer.png and layer.csv"
+                                   : "look at report/layer.png and layer.csv"});
   }
   const double share = result.layer.surface_m2 > 0.0 ? result.layer.measured_m2 / result.layer.surface_m2 : 0.0;
   if (share >= 0.6) return;

@@ -1,11 +1,13 @@
 // The deviation map and the sections at every interval.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/placed_tiles.h"
 #include "app/step.h"
 #include "core/foundation/parallel.h"
+#include "core/profiling/uncertainty.h"
 #include "io/atomic_file.h"
 #include "io/deviation_map_file.h"
 #include "io/review_tables.h"
@@ -20,7 +22,7 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "profile 8|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
+  std::string text = "profile 9|" + state.keys.at("register") + "|" + state.input_sha256.at(state.job.alignment);
   text += state.profiles_text();
   for (const DesignLine& line : state.job.lines)
     text += "|" + line.name + short_number(line.offset_m) + "," + short_number(line.growth_per_m) +
@@ -41,12 +43,16 @@ std::string depends_on(const JobState& state) {
 std::vector<Section> sections_of(const JobState& state, const DeviationMap& map, const DesignTunnel& design) {
   const JobChainage stretch = state.stretch();
   const auto chainages = section_chainages(stretch.from_m, stretch.to_m, stretch.interval_m);
+  const SurfaceSigma together = surface_sigma(state.results.registration, state.job.options.profiling);
   std::vector<Section> sections(chainages.size());
   parallel_for_each_index(
       chainages.size(),
       [&](std::size_t i) {
         sections[i] = cut_section(map, design, chainages[i], state.job.options.profiling);
         sections[i].axis_site = state.results.import.origin.to_site(sections[i].axis_site);
+        SectionCircle& circle = sections[i].circle;
+        circle.sigma_center_m = std::hypot(circle.sigma_center_m, std::max(together.across_m, together.up_m));
+        circle.sigma_radius_m = std::hypot(circle.sigma_radius_m, together.distance_m);
       },
       1);
   return sections;
@@ -102,16 +108,40 @@ void report_weak_coverage(ProfileResult& result, const DeviationMap& map, std::u
        mend_of_coverage(map, sparse_cells, "shorten \"chainage\" to what was scanned, or scan the rest")});
 }
 
+/// Circles are given of every section of a round design, but not every section is one.
+void report_poor_circles(ProfileResult& result) {
+  constexpr double poor_share = 0.02;  // of the radius: rock that was drilled and blasted well is rounder
+  std::size_t poor = 0, circles = 0;
+  const Section* worst = nullptr;
+  for (const Section& section : result.sections) {
+    if (!section.circle.there) continue;
+    ++circles;
+    if (section.circle.rms_m <= poor_share * section.circle.radius_m) continue;
+    ++poor;
+    if (worst == nullptr || section.circle.rms_m > worst->circle.rms_m) worst = &section;
+  }
+  if (worst == nullptr) return;
+  char words[200];
+  std::snprintf(words, sizeof words,
+                "%zu of %zu lie off by more than 2 %% of the radius (rms), the most %.0f mm at chainage %.2f: their "
+                "radius and centre say little",
+                poor, circles, 1e3 * worst->circle.rms_m, worst->chainage_m);
+  result.findings.push_back({Severity::warning, "best circles", words, "look at circles.csv and at these sections"});
+}
+
 Finding intrusion_finding(const ClearanceResult& clearance, bool all_listed) {
   const auto deepest =
       std::max_element(clearance.intrusions.begin(), clearance.intrusions.end(),
                        [](const Intrusion& a, const Intrusion& b) { return a.deepest.inside_m < b.deepest.inside_m; });
-  char words[260];
+  const bool cut = std::any_of(clearance.intrusions.begin(), clearance.intrusions.end(),
+                               [](const Intrusion& intrusion) { return intrusion.cut; });
+  char words[320];
   std::snprintf(
       words, sizeof words,
-      "%llu points in %zu places lie inside it, the deepest by %.3f m at chainage %.2f, offset %.2f, height %.2f%s",
+      "%llu points in %zu places lie inside it, the deepest by %.3f m at chainage %.2f, offset %.2f, height %.2f%s%s",
       static_cast<unsigned long long>(clearance.points), clearance.intrusions.size(), deepest->deepest.inside_m,
       deepest->deepest.at.s_m, deepest->deepest.at.x_m, deepest->deepest.at.z_m,
+      cut ? "; places that reach an end of the stretch may go on beyond it" : "",
       all_listed ? "" : "; clearance.csv lists the first million of them");
   return {Severity::decision, "clearance line " + clearance.line, words,
           "look at clearance.csv: rock, or equipment that will be taken away?"};
@@ -167,6 +197,7 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   Progress cutting = progress.part(0.1, "cutting sections");
   cut_sections(state, result);
   report_weak_coverage(result, *state.map, mapped.sparse_cells);
+  report_poor_circles(result);
   Progress clearing = progress.part(0.2, "checking the clearance");
   check_clearances(state, result, clearing);
   LeftFiles left{"steps/map.bin", "steps/profile.json"};

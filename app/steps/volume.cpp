@@ -19,7 +19,7 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "volume 10|" + state.keys.at("profile");
+  std::string text = "volume 11|" + state.keys.at("profile");
   if (const auto surface = state.keys.find("surface"); surface != state.keys.end()) text += "|" + surface->second;
   for (const JobRound& round : state.job.rounds)
     text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +
@@ -112,7 +112,7 @@ void add_zones(const JobState& state, VolumeResult& result) {
 
 Finding tolerance_finding(const ToleranceCheck& check, const DesignLine& line) {
   std::string words = "rock class " + check.rock_class + ", against " + line.name + ": ";
-  if (check.broken()) {
+  if (check.beyond()) {
     const auto add = [&](const char* what, double value, double limit, const char* unit, const char* format) {
       if (value <= limit) return;
       char one[120];
@@ -125,6 +125,7 @@ Finding tolerance_finding(const ToleranceCheck& check, const DesignLine& line) {
     add("overbreak", check.max_overbreak_m, limits.max_overbreak_m, "m", length);
     add("underbreak", check.max_underbreak_m, limits.max_underbreak_m, "m", length);
     add("a piece left inside", check.max_underbreak_area_m2, limits.max_underbreak_area_m2, "m2", length);
+    if (!check.broken()) words += ", but by less than two sigmas: the measurement does not decide it";
     return {Severity::warning, "tolerance of " + check.sector, words, "look at the map and at tolerances.csv"};
   }
   char seen[120];
@@ -136,22 +137,24 @@ Finding tolerance_finding(const ToleranceCheck& check, const DesignLine& line) {
 void add_tolerances(const JobState& state, VolumeResult& result) {
   if (!state.tolerances) return;
   const ToleranceSet& set = *state.tolerances;
-  result.tolerances = {set.name, set.source, set.verified_by,
-                       check_tolerances(*state.map, *state.design, state.job.lines.front(), state.job.sectors, set,
-                                        state.job.tolerances->rock_classes)};
+  result.tolerances = {
+      set.name, set.source, set.verified_by,
+      check_tolerances(*state.map, *state.design, state.job.lines.front(), state.job.sectors, set,
+                       state.job.tolerances->rock_classes, state.results.registration, state.job.options.profiling)};
   if (result.tolerances.checks.empty())
     result.findings.push_back({Severity::warning, "tolerances " + set.name,
                                "none of its rows is for a rock class of this stretch: nothing was checked",
                                "state \"rock_classes\", or add a row for \"any\""});
   for (const ToleranceCheck& check : result.tolerances.checks)
-    if (!check.kept()) result.findings.push_back(tolerance_finding(check, state.job.lines.front()));
+    if (check.verdict() != ToleranceVerdict::kept)
+      result.findings.push_back(tolerance_finding(check, state.job.lines.front()));
 }
 
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   VolumeResult result;
   const DeviationMap& map = *state.map;
   std::optional<MeshInTunnel> mesh;
-  if (state.mesh && state.design->plane() == SectionPlane::vertical) mesh.emplace(state.mesh->mesh, *state.design);
+  if (state.mesh) mesh.emplace(state.mesh->mesh, *state.design);
   const double share = 1.0 / static_cast<double>(state.job.lines.size() + state.job.rounds.size());
   for (const DesignLine& line : state.job.lines) {
     if (line.clearance) continue;  // nothing is measured against it

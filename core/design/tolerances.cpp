@@ -2,6 +2,20 @@
 
 namespace adit {
 
+const char* words_of(ToleranceVerdict verdict) {
+  switch (verdict) {
+    case ToleranceVerdict::kept:
+      return "kept";
+    case ToleranceVerdict::broken:
+      return "broken";
+    case ToleranceVerdict::undecided:
+      return "undecided";
+    case ToleranceVerdict::not_shown:
+      break;
+  }
+  return "not shown";
+}
+
 std::string rock_class_at(const std::vector<RockClassFrom>& classes, double chainage_m) {
   std::string name = "any";
   for (const RockClassFrom& one : classes)

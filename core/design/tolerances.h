@@ -6,6 +6,14 @@
 
 namespace adit {
 
+enum class ToleranceVerdict {
+  kept,
+  broken,     ///< by more than two sigmas
+  undecided,  ///< beyond a limit, but by less than that
+  not_shown,  ///< nothing beyond, but too little was seen
+};
+const char* words_of(ToleranceVerdict verdict);
+
 /// Limits against the reference line; what is not limited is a million kilometres.
 struct ToleranceRow {
   static constexpr double unlimited = 1e9;

@@ -90,13 +90,16 @@ ClearanceResult find_intrusions(const std::vector<PlacedTiles>& scans, const Cha
         1);
     for (const auto& of_tile : found)
       for (const ClearancePoint& point : of_tile) {
-        add({1, point.at.s_m, point.at.s_m, point, {}}, cells[cell_of(point.at)]);
+        add({1, point.at.s_m, point.at.s_m, false, point, {}}, cells[cell_of(point.at)]);
         ++result.points;
         if (result.list.size() < ClearanceResult::most_listed) result.list.push_back(point);
       }
   }
   result.intrusions = joined(std::move(cells));
-  for (Intrusion& intrusion : result.intrusions) intrusion.deepest_site = design.to_site(intrusion.deepest.at);
+  for (Intrusion& intrusion : result.intrusions) {
+    intrusion.deepest_site = design.to_site(intrusion.deepest.at);
+    intrusion.cut = intrusion.from_m < from_m + cell_m || intrusion.to_m > to_m - cell_m;
+  }
   return result;
 }
 

@@ -23,6 +23,7 @@ struct Intrusion {
   std::uint64_t points = 0;
   double from_m = 0.0;  ///< chainage
   double to_m = 0.0;
+  bool cut = false;  ///< reaches the end of the stretch, and may go on beyond it
   ClearancePoint deepest;
   Eigen::Vector3d deepest_site = Eigen::Vector3d::Zero();  ///< east, north, elevation
 };

@@ -168,10 +168,12 @@ FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const Dev
   const double relief_m = std::max(first.spread_m, second.spread_m);
   const double guessed_variance_m6 =
       std::pow(hidden_m2 * relief_m, 2) + (volume.guessed_m2 - hidden_m2) * correlated_m2 * relief_m * relief_m;
+  const double along_m = std::hypot(before_along_sigma_m, after_along_sigma_m);
+  const double guessed_m = face_m2 > 0.0 ? std::sqrt(guessed_variance_m6) / face_m2 : 0.0;
+  volume.sigma_advance_m = std::hypot(along_m, guessed_m);
   const double contour_m3 =
       volume_sigma_m3(map, design, line, volume.from_m, volume.to_m, VolumePart::excavated, registration, options);
-  volume.sigma_m3 = std::sqrt(std::pow(face_m2 * std::hypot(before_along_sigma_m, after_along_sigma_m), 2) +
-                              guessed_variance_m6 + contour_m3 * contour_m3);
+  volume.sigma_m3 = std::sqrt(std::pow(face_m2 * along_m, 2) + guessed_variance_m6 + contour_m3 * contour_m3);
   return volume;
 }
 

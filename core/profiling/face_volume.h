@@ -14,7 +14,8 @@ struct FaceVolume {
   double design_m3 = 0.0;  ///< within the reference line instead of the outline
   double from_m = 0.0;     ///< mean chainage of the faces, lesser first
   double to_m = 0.0;
-  double advance_m = 0.0;   ///< between the means, in the direction of drive
+  double advance_m = 0.0;  ///< between the means, in the direction of drive
+  double sigma_advance_m = 0.0;
   double guessed_m2 = 0.0;  ///< of both faces, inside the outline: not seen, taken from the nearest place that was
   bool whole = false;       ///< false: the map does not hold both faces; no volume then
 };

@@ -14,17 +14,10 @@ constexpr double block_m = 1.0;
 constexpr double least_block_share = 0.5;
 
 /// How well both epochs stand to one another.
-struct CommonSigma {
-  double across_m, up_m, distance_m;
-  double along_normal(const Eigen::Vector2d& normal, double incidence) const {
-    return std::hypot(normal.x() * across_m, normal.y() * up_m, incidence * distance_m);
-  }
-};
-
-CommonSigma sigma_between(const RegistrationResult& before, const RegistrationResult& after,
-                          double range_bias_sigma_m) {
-  const PoseSigma a = common_sigma(before), b = common_sigma(after);
-  return {std::hypot(a.across_m, b.across_m), std::hypot(a.up_m, b.up_m), std::sqrt(2.0) * range_bias_sigma_m};
+SurfaceSigma sigma_between(const RegistrationResult& before, const RegistrationResult& after,
+                           const ProfilingOptions& options) {
+  const SurfaceSigma a = surface_sigma(before, options), b = surface_sigma(after, options);
+  return {std::hypot(a.across_m, b.across_m), std::hypot(a.up_m, b.up_m), std::hypot(a.distance_m, b.distance_m)};
 }
 
 /// A cell measured in both epochs.
@@ -35,8 +28,9 @@ struct Pair {
 };
 
 struct BlockSums {
-  double line_m2 = 0.0, area_m2 = 0.0, volume_m3 = 0.0, noise_m6 = 0.0, across_m3 = 0.0, up_m3 = 0.0, distance_m3 = 0.0;
-  void add(const Pair& pair, const CommonSigma& sigma) {
+  double line_m2 = 0.0, measured_line_m2 = 0.0, area_m2 = 0.0, volume_m3 = 0.0, noise_m6 = 0.0, across_m3 = 0.0,
+         up_m3 = 0.0, distance_m3 = 0.0;
+  void add(const Pair& pair, const SurfaceSigma& sigma) {
     area_m2 += pair.area_m2;
     volume_m3 += pair.area_m2 * pair.thickness_m;
     noise_m6 += pair.area_m2 * pair.area_m2 * pair.noise2_m2;
@@ -46,6 +40,7 @@ struct BlockSums {
   }
   BlockSums& operator+=(const BlockSums& other) {
     line_m2 += other.line_m2;
+    measured_line_m2 += other.measured_line_m2;
     area_m2 += other.area_m2;
     volume_m3 += other.volume_m3;
     noise_m6 += other.noise_m6;
@@ -59,11 +54,6 @@ struct BlockSums {
   }
 };
 
-double noise2(const MapCell& cell) {
-  const double spread_m = static_cast<double>(cell.spread_m);
-  return spread_m * spread_m / std::max(1U, cell.count);
-}
-
 void expect_same_grid(const DeviationMap& a, const DeviationMap& b) {
   if (a.rows == b.rows && a.columns == b.columns && a.from_m == b.from_m && a.step_s_m == b.step_s_m &&
       a.step_q_m == b.step_q_m)
@@ -71,12 +61,30 @@ void expect_same_grid(const DeviationMap& a, const DeviationMap& b) {
   throw Error("two maps of different grids cannot be compared");
 }
 
+/// Which sectors get the layer.
+struct LayerSectors {
+  const std::vector<Sector>& sectors;
+  std::vector<char> has_layer;
+
+  LayerSectors(const std::vector<Sector>& all, const std::vector<std::string>& names)
+      : sectors(all), has_layer(all.size(), names.empty() ? 1 : 0) {
+    for (const std::string& name : names) {
+      const auto found =
+          std::find_if(all.begin(), all.end(), [&](const Sector& sector) { return sector.name == name; });
+      if (found == all.end()) throw Error("the layer names a sector that there is none of: " + name);
+      has_layer[static_cast<std::size_t>(found - all.begin())] = 1;
+    }
+  }
+  bool holds(const Eigen::Vector2d& normal) const { return has_layer[sector_of(sectors, normal)] != 0; }
+};
+
 /// Sums over the map, in blocks of about a square metre.
 struct Comparison {
   const DeviationMap& before;
   const DeviationMap& after;
   const DesignTunnel& design;
-  CommonSigma sigma;
+  LayerSectors sectors;
+  SurfaceSigma sigma;
   MapChange result;
   BlockSums whole;
   std::vector<double> levels;
@@ -86,16 +94,21 @@ struct Comparison {
     const double q0 = static_cast<double>(c) * after.step_q_m;
     const double q1 = std::min(q0 + after.step_q_m, stretch.length_m());
     const double line_m2 = stretch.line_length_m(q0, q1) * after.step_s_m;
-    block.line_m2 += line_m2;
+    const ProfilePoint at = stretch.at(0.5 * (q0 + q1));
+    const bool in_layer = sectors.holds(at.normal);
+    if (in_layer) block.line_m2 += line_m2;
     const MapCell &old = before.cell(r, c), &present = after.cell(r, c);
     if (old.kind != CellKind::measured || present.kind != CellKind::measured) return;
-    const ProfilePoint at = stretch.at(0.5 * (q0 + q1));
     const double half_way_m = 0.5 * static_cast<double>(old.deviation_m + present.deviation_m);
     const Eigen::Vector2d place = at.position + half_way_m * at.normal;
     const Pair pair{line_m2 * std::max(0.0, 1.0 + at.curvature_per_m * half_way_m) * shape.at(place),
-                    static_cast<double>(old.deviation_m - present.deviation_m), noise2(old) + noise2(present),
-                    at.normal, 0.5 * static_cast<double>(old.incidence + present.incidence)};
-    block.add(pair, sigma);
+                    static_cast<double>(old.deviation_m - present.deviation_m),
+                    noise_squared_m2(old) + noise_squared_m2(present), at.normal,
+                    0.5 * static_cast<double>(old.incidence + present.incidence)};
+    if (in_layer) {
+      block.measured_line_m2 += line_m2;
+      block.add(pair, sigma);
+    }
     const double level_m = 1.96 * std::hypot(std::sqrt(pair.noise2_m2), sigma.along_normal(at.normal, pair.incidence));
     levels.push_back(level_m);
     result.thickness.cell(r, c) = {static_cast<float>(pair.thickness_m), static_cast<float>(level_m), present.count,
@@ -139,6 +152,18 @@ struct Comparison {
   }
 };
 
+/// What was not measured, with the mean of what was.
+void add_missing(const BlockSums& whole, LayerResult& layer) {
+  layer.missing_m2 = whole.line_m2 - whole.measured_line_m2;
+  layer.whole_volume_m3 = layer.volume_m3 + layer.mean_m * layer.missing_m2;
+  double squares_m2 = 0.0;
+  for (const LayerBlock& block : layer.blocks) squares_m2 += std::pow(block.mean_m - layer.mean_m, 2);
+  const double spread_m = layer.blocks.empty() ? 0.0 : std::sqrt(squares_m2 / static_cast<double>(layer.blocks.size()));
+  // The systematic part goes on where nothing was measured.
+  const double grown = layer.measured_m2 > 0.0 ? (layer.measured_m2 + layer.missing_m2) / layer.measured_m2 : 1.0;
+  layer.sigma_whole_m3 = std::hypot(layer.sigma_volume_m3 * grown, spread_m * layer.missing_m2);
+}
+
 void add_classes(LayerResult& layer) {
   if (layer.blocks.empty()) return;
   const auto share_below = [&](double thickness_m) {
@@ -154,11 +179,18 @@ void add_classes(LayerResult& layer) {
 }  // namespace
 
 MapChange compare_maps(const DeviationMap& before, const DeviationMap& after, const DesignTunnel& design,
-                       const LayerDesign& layer, const RegistrationResult& registration_before,
-                       const RegistrationResult& registration_after, double range_bias_sigma_m) {
+                       const LayerDesign& layer, const std::vector<Sector>& sectors,
+                       const RegistrationResult& registration_before, const RegistrationResult& registration_after,
+                       const ProfilingOptions& options) {
   expect_same_grid(before, after);
-  Comparison comparison{
-      before, after, design, sigma_between(registration_before, registration_after, range_bias_sigma_m), {}, {}, {}};
+  Comparison comparison{before,
+                        after,
+                        design,
+                        LayerSectors(sectors, layer.sectors),
+                        sigma_between(registration_before, registration_after, options),
+                        {},
+                        {},
+                        {}};
   MapChange& result = comparison.result;
   result.thickness = after;
   std::fill(result.thickness.cells.begin(), result.thickness.cells.end(), MapCell{});
@@ -172,6 +204,7 @@ MapChange compare_maps(const DeviationMap& before, const DeviationMap& after, co
   result.layer.volume_m3 = whole.volume_m3;
   result.layer.sigma_volume_m3 = whole.sigma_m3();
   result.layer.mean_m = whole.area_m2 > 0.0 ? whole.volume_m3 / whole.area_m2 : 0.0;
+  add_missing(whole, result.layer);
   result.change.level_m = comparison.levels.empty() ? 0.0 : median(comparison.levels);
   add_classes(result.layer);
   return std::move(comparison.result);

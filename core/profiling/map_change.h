@@ -6,6 +6,8 @@
 
 #include "core/design/design_tunnel.h"
 #include "core/profiling/deviation_map.h"
+#include "core/profiling/profiling.h"
+#include "core/profiling/sectors.h"
 #include "core/registration/registration.h"
 
 namespace adit {
@@ -14,6 +16,7 @@ namespace adit {
 struct LayerDesign {
   double minimum_m = 0.0;
   double nominal_m = 0.0;
+  std::vector<std::string> sectors;  ///< that get the layer; empty: all
   bool operator==(const LayerDesign&) const = default;
 };
 
@@ -28,11 +31,14 @@ struct LayerBlock {
 
 struct LayerResult {
   LayerDesign design;
-  double surface_m2 = 0.0;   ///< of the line
+  double surface_m2 = 0.0;   ///< of the line, in the layer's sectors
   double measured_m2 = 0.0;  ///< measured in both epochs
   double mean_m = 0.0;
   double volume_m3 = 0.0;  ///< of the measured surface alone
   double sigma_volume_m3 = 0.0;
+  double missing_m2 = 0.0;       ///< of the line, not measured in both
+  double whole_volume_m3 = 0.0;  ///< with the mean thickness where it was not measured
+  double sigma_whole_m3 = 0.0;   ///< what is missing may all be off by as much as square metres differ
   // Shares of the measured blocks, by their means.
   double below_minimum = 0.0;
   double below_nominal = 0.0;  ///< from minimum to nominal
@@ -59,10 +65,11 @@ struct MapChange {
 
 /// before and after: maps of the same design and grid. Thickness counts along the outward normal of the profile; the
 /// surface of a cell at half-way depth is (1 + kp d)(1 - kh x) of that of the profile. Throws Error when the grids
-/// differ. range_bias_sigma_m: systematic error of distances, of each epoch by itself; it counts by the cosine of
-/// incidence.
+/// differ or the layer names a sector that is none. Changes are looked for in every sector. The distances' systematic
+/// error is that of each epoch by itself.
 MapChange compare_maps(const DeviationMap& before, const DeviationMap& after, const DesignTunnel& design,
-                       const LayerDesign& layer, const RegistrationResult& registration_before,
-                       const RegistrationResult& registration_after, double range_bias_sigma_m);
+                       const LayerDesign& layer, const std::vector<Sector>& sectors,
+                       const RegistrationResult& registration_before, const RegistrationResult& registration_after,
+                       const ProfilingOptions& options);
 
 }  // namespace adit

@@ -27,13 +27,14 @@ Corners clipped(const Corners& polygon, double at_m, double sign) {
 }
 
 /// Integral of F . n over a triangle; F is of second degree, for which the middles of the edges are enough.
-double flux(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, double k) {
+double flux(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const SliceShape& shape) {
   const Eigen::Vector3d twice_area = (b - a).cross(c - a);
   double sum = 0.0;
   for (const Eigen::Vector3d& p :
        {Eigen::Vector3d(0.5 * (a + b)), Eigen::Vector3d(0.5 * (b + c)), Eigen::Vector3d(0.5 * (c + a))}) {
     const double x = p.y(), z = p.z();
-    sum += (0.5 * x - k * x * x / 3.0) * twice_area.y() + z * (0.5 - k * x / 3.0) * twice_area.z();
+    const double f = shape.per_area / 2.0 - shape.per_x * x / 3.0 - shape.per_z * z / 3.0;
+    sum += f * (x * twice_area.y() + z * twice_area.z());
   }
   return sum / 6.0;
 }
@@ -63,13 +64,14 @@ struct Places {
   }
 };
 
-Places places_of(const MeshArrays& mesh, const Alignment& axis) {
+Places places_of(const MeshArrays& mesh, const DesignTunnel& design) {
   Places places{std::vector<Eigen::Vector3d>(mesh.points.size()), std::vector<char>(mesh.points.size(), 0)};
   parallel_for_each_index(mesh.points.size(), [&](std::size_t i) {
-    const auto at = axis.to_tunnel(mesh.points[i]);
-    if (!at) return;
+    const auto vertical = design.alignment().to_tunnel(mesh.points[i]);
+    if (!vertical) return;
+    const TunnelPoint at = design.in_section(*vertical);
     places.known[i] = 1;
-    places.points[i] = {at->s_m, at->x_m, at->z_m};
+    places.points[i] = {at.s_m, at.x_m, at.z_m};
   });
   return places;
 }
@@ -98,35 +100,34 @@ MeshArrays tubes(const MeshArrays& mesh, const Places& places, const DesignTunne
 }  // namespace
 
 MeshInTunnel::MeshInTunnel(const MeshArrays& mesh, const DesignTunnel& design) {
-  const Alignment& axis = design.alignment();
-  const Places places = places_of(mesh, axis);
+  const Places places = places_of(mesh, design);
   const MeshArrays tunnel = tubes(mesh, places, design);
   const FilledMesh whole = fill_holes(tunnel, [&](const MeshLoop& loop) { return places.is_end(loop, design); });
   for (std::size_t t = 0; t < whole.mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = whole.mesh.triangles[t];
     if (places.known[a] == 0 || places.known[b] == 0 || places.known[c] == 0) continue;
-    add({places.points[a], places.points[b], places.points[c]}, axis, t >= tunnel.triangles.size());
+    add({places.points[a], places.points[b], places.points[c]}, design, t >= tunnel.triangles.size());
   }
   for (const MeshLoop& loop : whole.open) {
     std::vector<Eigen::Vector3d> rim;
     for (const std::uint32_t point : loop)
       if (places.known[point] != 0) rim.push_back(places.points[point]);
     const bool end = rim.size() == loop.size() && places.is_end(loop, design);
-    if (end) flatten(rim, axis);
+    if (end) flatten(rim, design);
     one_tube_ = one_tube_ && end;
   }
   // Two ends, one to either side: otherwise the tube is torn, and something is missing between its pieces.
   one_tube_ = one_tube_ && whole.joined && whole.open.size() == 2 && from_m_ < to_m_;
 }
 
-void MeshInTunnel::add(const std::array<Eigen::Vector3d, 3>& corners, const Alignment& axis, bool filled) {
+void MeshInTunnel::add(const std::array<Eigen::Vector3d, 3>& corners, const DesignTunnel& design, bool filled) {
   const double s_m = (corners[0].x() + corners[1].x() + corners[2].x()) / 3.0;
-  const double k = axis.horizontal().at(std::clamp(s_m, axis.from_m(), axis.to_m())).curvature_per_m;
-  triangles_.push_back({corners, k, filled});
+  const Alignment& axis = design.alignment();
+  triangles_.push_back({corners, design.slice_shape(std::clamp(s_m, axis.from_m(), axis.to_m())), filled});
   middle_s_m_ += (s_m - middle_s_m_) / static_cast<double>(triangles_.size());
 }
 
-void MeshInTunnel::flatten(const std::vector<Eigen::Vector3d>& rim, const Alignment& axis) {
+void MeshInTunnel::flatten(const std::vector<Eigen::Vector3d>& rim, const DesignTunnel& design) {
   const auto [least, greatest] = std::minmax_element(
       rim.begin(), rim.end(), [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.x() < b.x(); });
   const double least_m = least->x(), greatest_m = greatest->x();
@@ -136,8 +137,8 @@ void MeshInTunnel::flatten(const std::vector<Eigen::Vector3d>& rim, const Alignm
   const auto on_plane = [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(plane_m, p.y(), p.z()); };
   for (std::size_t i = 0; i < rim.size(); ++i) {
     const Eigen::Vector3d &p = rim[i], &q = rim[(i + 1) % rim.size()];
-    add({p, q, on_plane(q)}, axis, true);
-    add({p, on_plane(q), on_plane(p)}, axis, true);
+    add({p, q, on_plane(q)}, design, true);
+    add({p, on_plane(q), on_plane(p)}, design, true);
   }
 }
 
@@ -157,7 +158,7 @@ MeshVolume MeshInTunnel::between(double from_m, double to_m) const {
       Corners inside(triangle.corners.begin(), triangle.corners.end());
       inside = clipped(clipped(inside, from_m, 1.0), to_m, -1.0);
       for (std::size_t i = 2; i < inside.size(); ++i) {
-        part.flux += flux(inside[0], inside[i - 1], inside[i], triangle.curvature_per_m);
+        part.flux += flux(inside[0], inside[i - 1], inside[i], triangle.shape);
         if (triangle.filled) part.filled_m2 += 0.5 * (inside[i - 1] - inside[0]).cross(inside[i] - inside[0]).norm();
       }
     }

@@ -21,18 +21,19 @@ class MeshInTunnel {
   /// from each edge to the plane of the outermost point.
   MeshInTunnel(const MeshArrays& mesh, const DesignTunnel& design);
 
-  /// Divergence theorem: with F = (0, x/2 - k x^2/3, z (1/2 - k x/3)) in (s, x, z), div F = 1 - k x, the volume of a
-  /// slice with plan curvature k, and no part of F goes through planes across the axis, so that the ends need no lids.
+  /// Divergence theorem: with F = (0, x f, z f), f = a/2 - b x/3 - c z/3, in (s, x, z), div F = a - b x - c z, what a
+  /// slice holds at a place (SliceShape), and no part of F goes through the sections' planes, so that the ends need no
+  /// lids.
   MeshVolume between(double from_m, double to_m) const;
 
  private:
   struct Triangle {
     std::array<Eigen::Vector3d, 3> corners;  ///< (s, x, z)
-    double curvature_per_m = 0.0;
+    SliceShape shape;
     bool filled = false;
   };
-  void add(const std::array<Eigen::Vector3d, 3>& corners, const Alignment& axis, bool filled);
-  void flatten(const std::vector<Eigen::Vector3d>& rim, const Alignment& axis);
+  void add(const std::array<Eigen::Vector3d, 3>& corners, const DesignTunnel& design, bool filled);
+  void flatten(const std::vector<Eigen::Vector3d>& rim, const DesignTunnel& design);
 
   std::vector<Triangle> triangles_;
   double middle_s_m_ = 0.0;

@@ -52,12 +52,29 @@ void for_triples(std::size_t n, const Visit& visit) {
   for (std::uint64_t t = 0; t < draws; ++t) visit(drawn(3 * t), drawn(3 * t + 1), drawn(3 * t + 2));
 }
 
+/// Of five points the one that lies off a circle through three of the others on which the fourth lies too. None where
+/// several could be the one.
+std::vector<std::size_t> odd_one_of_five(const Flat& points, double off_m) {
+  std::vector<std::size_t> odd;
+  for (std::size_t left_out = 0; left_out < points.size(); ++left_out) {
+    Flat others;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (i != left_out) others.push_back(points[i]);
+    const auto circle = circle_through(others[0], others[1], others[2]);
+    if (!circle) continue;
+    Flat rest{others[3], points[left_out]};
+    const std::vector<double> distances = distances_from(*circle, rest);
+    if (distances[0] <= off_m && distances[1] > off_m) odd.push_back(left_out);
+  }
+  return odd.size() == 1 ? odd : std::vector<std::size_t>{};
+}
+
 }  // namespace
 
 std::vector<std::size_t> ring_outliers(const std::vector<RingPlace>& places, const RingFit& fit,
                                        const Eigen::Vector3d& along) {
   constexpr double least_m = 0.03, share_of_radius = 0.02, sigmas = 3.0;  // linings are no circles to that
-  if (places.size() < 6) return {};
+  if (places.size() < 5) return {};
   // Square to the axis: the ring's own plane may be that of its wrong points.
   const Eigen::Quaterniond flat_from_site = Eigen::Quaterniond::FromTwoVectors(along, Eigen::Vector3d::UnitZ());
   Flat flat;
@@ -65,6 +82,7 @@ std::vector<std::size_t> ring_outliers(const std::vector<RingPlace>& places, con
     const Eigen::Vector2d point = (flat_from_site * (place.position - fit.center)).head<2>();
     flat.push_back(point + place.target_offset_m * point.normalized());  // to the surface, as good as it is known
   }
+  if (flat.size() == 5) return odd_one_of_five(flat, std::max(least_m, share_of_radius * fit.radius_m));
   double least_median = std::numeric_limits<double>::infinity();
   FlatCircle best{};
   for_triples(flat.size(), [&](std::size_t i, std::size_t j, std::size_t k) {

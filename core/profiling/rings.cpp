@@ -118,6 +118,25 @@ void judge(const Ring& ring, const RingFit& fit, const RingResult& result, const
     say(true, "its centre lies farther from its place than its radius", "check \"center\", the axis and the points");
 }
 
+/// Three points leave no sigma: then a deviation beyond the tolerance is not decided.
+ToleranceVerdict verdict_of(const RingResult& result, double tolerance_m) {
+  if (tolerance_m <= 0.0) return ToleranceVerdict::not_shown;
+  const double off_m = std::max(std::abs(result.horizontal_deviation_m), std::abs(result.vertical_deviation_m));
+  if (off_m <= tolerance_m) return ToleranceVerdict::kept;
+  return off_m - 2.0 * result.sigma_center_m > tolerance_m ? ToleranceVerdict::broken : ToleranceVerdict::undecided;
+}
+
+void judge_place(const RingResult& result, double tolerance_m, const std::string& subject, Findings& findings) {
+  if (result.verdict != ToleranceVerdict::broken && result.verdict != ToleranceVerdict::undecided) return;
+  const double off_m = std::max(std::abs(result.horizontal_deviation_m), std::abs(result.vertical_deviation_m));
+  findings.push_back({Severity::warning, subject,
+                      "its centre lies " + millimetres(off_m) + " off, of " + millimetres(tolerance_m) + " permitted" +
+                          (result.verdict == ToleranceVerdict::undecided
+                               ? ", but by less than two sigmas: the measurement does not decide it"
+                               : ""),
+                      "look at rings.csv"});
+}
+
 RingResult result_of(const std::string& name, const Ring& ring, const Alignment& axis, const RingDesign& design,
                      Findings& findings) {
   const std::string subject = "ring " + name;
@@ -140,12 +159,14 @@ RingResult result_of(const std::string& name, const Ring& ring, const Alignment&
   result.rms_m = fit.rms_m;
   result.sigma_center_m = fit.sigma_center_m;
   result.sigma_radius_m = fit.sigma_radius_m;
+  result.verdict = verdict_of(result, design.tolerance_m);
   result.tilt_deg = deg_from_rad(std::acos(std::min(1.0, std::abs(fit.normal.dot(tunnel.along)))));
   for (std::size_t i = 0; i < ring.size(); ++i)
     result.residuals.push_back(
         {ring[i]->point, tunnel.clock_deg(ring[i]->place.position - fit.center), fit.residuals_m[i]});
   look_for_blunders(ring, fit, tunnel, subject, findings);
   judge(ring, fit, result, design, subject, findings);
+  judge_place(result, design.tolerance_m, subject, findings);
   return result;
 }
 
@@ -161,6 +182,7 @@ RingsResult fit_rings(const std::vector<RingPoint>& points, const Alignment& axi
     rings[found->second].second.push_back(&point);
   }
   RingsResult result;
+  result.design = design;
   for (std::size_t i = 0; i < rings.size(); ++i) {
     progress.step(i, rings.size());
     const auto& [name, ring] = rings[i];

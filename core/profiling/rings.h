@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/design/alignment.h"
+#include "core/design/tolerances.h"
 #include "core/foundation/finding.h"
 #include "core/foundation/progress.h"
 #include "core/profiling/ring_fit.h"
@@ -20,11 +21,13 @@ struct RingPoint {
   RingPlace place;
 };
 
-/// What the design says of rings: where their centre belongs beside the axis, and their radius (0: not said).
+/// What the design says of rings: where their centre belongs beside the axis, their radius, and how far the centre may
+/// lie off to the side or in height (0: not said).
 struct RingDesign {
   double center_offset_m = 0.0;
   double center_height_m = 0.0;
   double radius_m = 0.0;
+  double tolerance_m = 0.0;
 };
 
 struct RingResidual {
@@ -47,11 +50,13 @@ struct RingResult {
   double rms_m = 0.0;
   double sigma_center_m = 0.0;  ///< not a number for three points
   double sigma_radius_m = 0.0;
-  double tilt_deg = 0.0;  ///< of the ring's plane against the one square to the axis
+  ToleranceVerdict verdict = ToleranceVerdict::not_shown;  ///< on its centre; not shown without a tolerance
+  double tilt_deg = 0.0;                                   ///< of the ring's plane against the one square to the axis
   std::vector<RingResidual> residuals;
 };
 
 struct RingsResult {
+  RingDesign design;
   std::vector<RingResult> rings;  ///< in order of chainage
   Findings findings;
 };

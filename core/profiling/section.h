@@ -57,6 +57,8 @@ struct SectionCircle {
   double major_clock_deg = std::numeric_limits<double>::quiet_NaN();
   double rms_m = 0.0;
   double covered_deg = 0.0;
+  double sigma_center_m = 0.0;  ///< one sigma, the worse direction
+  double sigma_radius_m = 0.0;
 };
 
 struct Section {

@@ -49,6 +49,8 @@ SectionCircle best_circle(const std::vector<OutlinePoint>& outline, const Design
   circle.design_radius_m = design.radius_m;
   circle.rms_m = fit.rms_m;
   circle.covered_deg = fit.covered_deg;
+  circle.sigma_center_m = fit.sigma_center_m;
+  circle.sigma_radius_m = fit.sigma_radius_m;
   circle.ovality_m = fit.ovality_m;
   if (std::isfinite(fit.ovality_m))
     circle.major_clock_deg =

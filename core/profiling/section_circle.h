@@ -17,7 +17,8 @@ struct DesignCircle {
 std::optional<DesignCircle> circle_of(const Profile& profile);
 
 /// Least squares through the measured points of an outline, in the section plane (core/profiling/ring_fit.h). Not there
-/// where fewer than twelve cells or 90 degrees were measured.
+/// where fewer than twelve cells or 90 degrees were measured. Its
+/// sigmas are those of the fit alone.
 SectionCircle best_circle(const std::vector<OutlinePoint>& outline, const DesignCircle& design);
 
 }  // namespace adit

@@ -1,6 +1,9 @@
 #include "core/profiling/tolerance_check.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/profiling/uncertainty.h"
 
 namespace adit {
 namespace {
@@ -11,7 +14,16 @@ struct CellPlace {
   int check = -1;  ///< which check it belongs to; none for cells beyond the line's end or without limits
   double area_m2 = 0.0;
   double over_m = 0.0;
+  double two_sigma_m = 0.0;
   bool measured = false;
+};
+
+/// Over the overbreak of one check: area times what moves it.
+struct MeanMoves {
+  double across_m2 = 0.0, up_m2 = 0.0, distance_m2 = 0.0;
+  double sigma_m3(const SurfaceSigma& sigma) const {
+    return std::hypot(across_m2 * sigma.across_m, up_m2 * sigma.up_m, distance_m2 * sigma.distance_m);
+  }
 };
 
 struct Checker {
@@ -21,7 +33,9 @@ struct Checker {
   const std::vector<Sector>& sectors;
   const ToleranceSet& set;
   const std::vector<RockClassFrom>& classes;
+  SurfaceSigma sigma;
   std::vector<ToleranceCheck> checks;
+  std::vector<MeanMoves> moves;  ///< of each check
   std::vector<CellPlace> places;
 
   int check_of(const std::string& rock_class, const Eigen::Vector2d& normal) {
@@ -35,6 +49,7 @@ struct Checker {
     check.sector = sector;
     check.limits = *row;
     checks.push_back(check);
+    moves.emplace_back();
     return static_cast<int>(checks.size() - 1);
   }
 
@@ -49,13 +64,25 @@ struct Checker {
       const MapCell& cell = map.cell(r, c);
       CellPlace& place = places[r * map.columns + c];
       if (cell.kind == CellKind::opening) continue;
-      place.check = check_of(rock_class, stretch.at(0.5 * (q0 + q1)).normal);
+      const Eigen::Vector2d normal = stretch.at(0.5 * (q0 + q1)).normal;
+      place.check = check_of(rock_class, normal);
       if (place.check < 0) continue;
       place.area_m2 = stretch.line_length_m(q0, q1) * map.step_s_m;
       place.measured = cell.kind == CellKind::measured;
-      if (place.measured) place.over_m = static_cast<double>(cell.deviation_m) - offset_m;
+      if (place.measured) measure(place, cell, normal, offset_m);
       add_cell(place, chainage_m);
     }
+  }
+
+  void measure(CellPlace& place, const MapCell& cell, const Eigen::Vector2d& normal, double offset_m) {
+    const auto incidence = static_cast<double>(cell.incidence);
+    place.over_m = static_cast<double>(cell.deviation_m) - offset_m;
+    place.two_sigma_m = 2.0 * std::hypot(std::sqrt(noise_squared_m2(cell)), sigma.along_normal(normal, incidence));
+    if (place.over_m <= 0.0) return;
+    MeanMoves& moved = moves[static_cast<std::size_t>(place.check)];
+    moved.across_m2 += place.area_m2 * normal.x();
+    moved.up_m2 += place.area_m2 * normal.y();
+    moved.distance_m2 += place.area_m2 * incidence;
   }
 
   void add_cell(const CellPlace& place, double chainage_m) {
@@ -72,24 +99,40 @@ struct Checker {
       check.max_underbreak_m = -place.over_m;
       check.max_underbreak_chainage_m = chainage_m;
     }
+    check.sure_overbreak_m = std::max(check.sure_overbreak_m, place.over_m - place.two_sigma_m);
+    check.sure_underbreak_m = std::max(check.sure_underbreak_m, -place.over_m - place.two_sigma_m);
     if (place.over_m > check.limits.max_overbreak_m) check.over_limit_m2 += place.area_m2;
     if (-place.over_m > check.limits.max_underbreak_m) check.under_limit_m2 += place.area_m2;
   }
 
-  bool is_left(std::size_t cell) const {
-    return places[cell].check >= 0 && places[cell].measured && places[cell].over_m < -left_inside_m;
+  /// Rock left inside the line; `surely`: by more than two sigmas.
+  bool is_left(std::size_t cell, bool surely) const {
+    const CellPlace& place = places[cell];
+    const double least_m = surely ? std::max(left_inside_m, place.two_sigma_m) : left_inside_m;
+    return place.check >= 0 && place.measured && place.over_m < -least_m;
   }
 
-  /// The area of the patch of rock left inside the line that a cell belongs to, within its check. Its cells are then
-  /// taken out.
-  double take_patch(std::size_t first) {
+  /// The largest patch of rock left inside the line, for each check.
+  std::vector<double> largest_patches_m2(bool surely) const {
+    std::vector<double> largest_m2(checks.size(), 0.0);
+    std::vector<char> taken(places.size(), 0);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (taken[i] != 0 || !is_left(i, surely)) continue;
+      double& most_m2 = largest_m2[static_cast<std::size_t>(places[i].check)];
+      most_m2 = std::max(most_m2, patch_m2(i, surely, taken));
+    }
+    return largest_m2;
+  }
+
+  /// The area of the patch that a cell belongs to, within its check. Its cells are then taken.
+  double patch_m2(std::size_t first, bool surely, std::vector<char>& taken) const {
     const int check = places[first].check;
     std::vector<std::size_t> patch{first};
-    places[first].measured = false;
+    taken[first] = 1;
     double area_m2 = 0.0;
     const auto add = [&](std::size_t other) {
-      if (!is_left(other) || places[other].check != check) return;
-      places[other].measured = false;
+      if (taken[other] != 0 || !is_left(other, surely) || places[other].check != check) return;
+      taken[other] = 1;
       patch.push_back(other);
     };
     for (std::size_t i = 0; i < patch.size(); ++i) {
@@ -117,16 +160,29 @@ std::vector<std::string> classes_of(const std::vector<ToleranceCheck>& checks) {
 
 std::vector<ToleranceCheck> check_tolerances(const DeviationMap& map, const DesignTunnel& design,
                                              const DesignLine& line, const std::vector<Sector>& sectors,
-                                             const ToleranceSet& set, const std::vector<RockClassFrom>& classes) {
-  Checker checker{map, design, line, sectors, set, classes, {}, std::vector<CellPlace>(map.cells.size())};
+                                             const ToleranceSet& set, const std::vector<RockClassFrom>& classes,
+                                             const RegistrationResult& registration, const ProfilingOptions& options) {
+  Checker checker{map,
+                  design,
+                  line,
+                  sectors,
+                  set,
+                  classes,
+                  surface_sigma(registration, options),
+                  {},
+                  {},
+                  std::vector<CellPlace>(map.cells.size())};
   for (std::size_t r = 0; r < map.rows; ++r) checker.add_row(r);
-  for (std::size_t i = 0; i < checker.places.size(); ++i) {
-    if (!checker.is_left(i)) continue;
-    ToleranceCheck& check = checker.checks[static_cast<std::size_t>(checker.places[i].check)];
-    check.max_underbreak_area_m2 = std::max(check.max_underbreak_area_m2, checker.take_patch(i));
+  const std::vector<double> patches_m2 = checker.largest_patches_m2(false), sure_m2 = checker.largest_patches_m2(true);
+  for (std::size_t i = 0; i < checker.checks.size(); ++i) {
+    ToleranceCheck& check = checker.checks[i];
+    check.max_underbreak_area_m2 = patches_m2[i];
+    check.sure_underbreak_area_m2 = sure_m2[i];
+    if (check.measured_m2 <= 0.0) continue;
+    check.mean_overbreak_m /= check.measured_m2;
+    const double sigma_m = checker.moves[i].sigma_m3(checker.sigma) / check.measured_m2;
+    check.sure_mean_overbreak_m = std::max(0.0, check.mean_overbreak_m - 2.0 * sigma_m);
   }
-  for (ToleranceCheck& check : checker.checks)
-    if (check.measured_m2 > 0.0) check.mean_overbreak_m /= check.measured_m2;
   std::vector<ToleranceCheck> ordered;
   for (const std::string& rock_class : classes_of(checker.checks))
     for (const Sector& sector : sectors)

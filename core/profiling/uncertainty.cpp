@@ -71,6 +71,20 @@ PoseSigma common_sigma(const RegistrationResult& registration) {
   return worst;
 }
 
+double SurfaceSigma::along_normal(const Eigen::Vector2d& normal, double incidence) const {
+  return std::hypot(normal.x() * across_m, normal.y() * up_m, incidence * distance_m);
+}
+
+SurfaceSigma surface_sigma(const RegistrationResult& registration, const ProfilingOptions& options) {
+  const PoseSigma common = common_sigma(registration);
+  return {common.across_m, common.up_m, options.range_bias_sigma_m};
+}
+
+double noise_squared_m2(const MapCell& cell) {
+  const double spread_m = static_cast<double>(cell.spread_m);
+  return spread_m * spread_m / std::max(1U, cell.count);
+}
+
 double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line, double from_m,
                        double to_m, VolumePart part, const RegistrationResult& registration,
                        const ProfilingOptions& options) {

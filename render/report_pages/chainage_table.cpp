@@ -71,7 +71,9 @@ void add_circles(PageFlow& flow, const std::vector<Section>& sections) {
                {"station m", 20, true},
                {"centre right mm", 24, true},
                {"up mm", 18, true},
+               {"\u00b12\u03c3 mm", 16, true},
                {"radius m", 20, true},
+               {"\u00b12\u03c3 mm", 16, true},
                {"design m", 18, true},
                {"ovality mm", 20, true},
                {"largest at \u00b0", 18, true},
@@ -84,15 +86,17 @@ void add_circles(PageFlow& flow, const std::vector<Section>& sections) {
     if (!c.there) continue;
     table.rows.push_back({fixed(section.chainage_m, 2), fixed(section.station_m, 2),
                           with_sign(1e3 * c.deviation_m.x(), 1), with_sign(1e3 * c.deviation_m.y(), 1),
-                          fixed(c.radius_m, 4), fixed(c.design_radius_m, 3), known(c.ovality_m, 1e3, 1),
-                          known(c.major_clock_deg, 1.0, 0), fixed(1e3 * c.rms_m, 1), fixed(c.covered_deg, 0)});
+                          fixed(2e3 * c.sigma_center_m, 1), fixed(c.radius_m, 4), fixed(2e3 * c.sigma_radius_m, 1),
+                          fixed(c.design_radius_m, 3), known(c.ovality_m, 1e3, 1), known(c.major_clock_deg, 1.0, 0),
+                          fixed(1e3 * c.rms_m, 1), fixed(c.covered_deg, 0)});
   }
   if (table.rows.empty()) return;
   flow.start("Sections: best circles");
   flow.table(table);
   flow.paragraph(
       "Least squares through the measured outline, in the section plane. Centre: from where the design has it. "
-      "Ovality: largest less smallest diameter of the best ellipse.",
+      "Ovality: largest less smallest diameter of the best ellipse. Sigmas: of the fit with registration and distances; "
+      "what the rock hid they do not know.",
       colours::grey, 2.3);
 }
 

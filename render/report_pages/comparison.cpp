@@ -56,7 +56,8 @@ void add_between(PageFlow& flow, const CompareResult& result) {
   if (!result.between.whole) return;
   const FaceVolume& v = result.between;
   flow.subheading("Between the faces");
-  Table table{{{"advance m", 22, true},
+  Table table{{{"advance m", 20, true},
+               {"\u00b12\u03c3 m", 16, true},
                {"excavated m\u00b3", 26, true},
                {"\u00b12\u03c3 m\u00b3", 18, true},
                {"design m\u00b3", 22, true},
@@ -64,13 +65,13 @@ void add_between(PageFlow& flow, const CompareResult& result) {
                {"round", 14, true},
                {"drilled m", 18, true},
                {"pull", 14, true},
-               {"rock left, mean m", 28, true}},
+               {"rock left m", 20, true}},
               {},
               2.4};
   const bool round = result.drilled_m > 0.0;
-  table.rows.push_back({fixed(v.advance_m, 3), fixed(v.excavated_m3, 1), fixed(2.0 * v.sigma_m3, 1),
-                        fixed(v.design_m3, 1), fixed(v.guessed_m2, 1), round ? std::to_string(result.round) : "\u2013",
-                        round ? fixed(result.drilled_m, 2) : "\u2013",
+  table.rows.push_back({fixed(v.advance_m, 3), fixed(2.0 * v.sigma_advance_m, 3), fixed(v.excavated_m3, 1),
+                        fixed(2.0 * v.sigma_m3, 1), fixed(v.design_m3, 1), fixed(v.guessed_m2, 1),
+                        round ? std::to_string(result.round) : "\u2013", round ? fixed(result.drilled_m, 2) : "\u2013",
                         round ? percent(v.advance_m / result.drilled_m) : "\u2013",
                         round ? fixed(result.left.mean_m, 2) : "\u2013"});
   flow.table(table);
@@ -78,9 +79,17 @@ void add_between(PageFlow& flow, const CompareResult& result) {
       "Excavated: what lies within this job's as-built outline and between both faces, with the plan's curvature; design: within the "
       "reference line instead. Guessed: of both faces, taken from the nearest place that was seen." +
           (round ? " Rock left against the drilled depth: " + fixed(result.left.most_m, 2) +
-                       " m at the most, over 0.3 m on " + percent(result.left.over_03_share) + " of the seen face."
+                       " m at the most, the mean above, over 0.3 m on " + percent(result.left.over_03_share) +
+                       " of the seen face."
                  : std::string()),
       colours::grey, 2.3);
+}
+
+std::string sectors_words(const LayerDesign& design) {
+  if (design.sectors.empty()) return "The layer is looked for in every sector, the floor among them. ";
+  std::string names;
+  for (const std::string& sector : design.sectors) names += (names.empty() ? "" : ", ") + sector;
+  return "Sectors with the layer: " + names + ". ";
 }
 
 void add_layer(PageFlow& flow, const ReportContent& content) {
@@ -89,23 +98,28 @@ void add_layer(PageFlow& flow, const ReportContent& content) {
   flow.subheading("Surface of this job against \u201c" + result.before + "\u201d");
   const bool said = layer.design.nominal_m > 0.0;
   Table table{{{"measured in both m\u00b2", 30, true},
-               {"mean mm", 18, true},
-               {"volume m\u00b3", 20, true},
-               {"\u00b12\u03c3 m\u00b3", 18, true},
-               {"below minimum", 26, true},
-               {"below nominal", 26, true},
-               {"nominal and more", 28, true}},
+               {"mean mm", 16, true},
+               {"volume m\u00b3", 18, true},
+               {"\u00b12\u03c3 m\u00b3", 15, true},
+               {"not measured m\u00b2", 26, true},
+               {"whole m\u00b3", 17, true},
+               {"\u00b12\u03c3 m\u00b3", 15, true},
+               {"< minimum", 18, true},
+               {"< nominal", 18, true},
+               {"\u2265 nominal", 18, true}},
               {},
               2.4};
   const auto share = [&](double value) { return said ? percent(value, 1) : std::string("\u2013"); };
   table.rows.push_back(
       {fixed(layer.measured_m2, 1), fixed(1e3 * layer.mean_m, 1), fixed(layer.volume_m3, 2),
-       fixed(2.0 * layer.sigma_volume_m3, 2),
+       fixed(2.0 * layer.sigma_volume_m3, 2), fixed(layer.missing_m2, 1), fixed(layer.whole_volume_m3, 2),
+       fixed(2.0 * layer.sigma_whole_m3, 2),
        TableCell(share(layer.below_minimum), said && layer.below_minimum > 0.0 ? colours::red : colours::black),
        share(layer.below_nominal), share(layer.from_nominal)});
   flow.table(table);
   const ChangeResult& change = result.change;
-  flow.paragraph("Positive: the surface came in. " +
+  flow.paragraph("Positive: the surface came in. " + sectors_words(layer.design) +
+                     "Whole: with the mean where it was not measured, by as much uncertain as square metres differ. " +
                      (said ? "Classes are of " + std::to_string(layer.blocks.size()) +
                                  " blocks of about a square metre: minimum " + fixed(1e3 * layer.design.minimum_m, 0) +
                                  " mm, nominal " + fixed(1e3 * layer.design.nominal_m, 0) + " mm. "
@@ -158,7 +172,16 @@ void add_undulation(PageFlow& flow, const UndulationResult& result) {
 }  // namespace
 
 MapTexts layer_texts(const ReportContent& content) {
-  MapTexts texts{.line = "earlier surface", .marks = {}, .rounds = content.job->rounds, .words = {"gone", "come in"}};
+  MapTexts texts{.line = "earlier surface",
+                 .marks = {},
+                 .rounds = content.job->rounds,
+                 .words = {"gone", "come in"},
+                 .neutral_within_spread = true};
+  const LayerDesign& layer = content.results->compare->layer.design;
+  if (layer.nominal_m > 0.0) {
+    texts.words.marks.push_back({layer.minimum_m, layer.minimum_m < layer.nominal_m ? "min" : "min = nominal"});
+    if (layer.minimum_m < layer.nominal_m) texts.words.marks.push_back({layer.nominal_m, "nom"});
+  }
   if (content.design != nullptr) texts.marks = line_marks(*content.design, *content.change);
   return texts;
 }

@@ -18,8 +18,9 @@ TableCell against(double value, double limit, int decimals) {
 }
 
 TableCell verdict_cell(const ToleranceCheck& check) {
-  if (check.broken()) return {"broken", colours::red, true};
-  return check.kept() ? TableCell("kept") : TableCell("not shown", colours::red);
+  const ToleranceVerdict verdict = check.verdict();
+  if (verdict == ToleranceVerdict::kept) return {words_of(verdict)};
+  return {words_of(verdict), colours::red, verdict == ToleranceVerdict::broken};
 }
 
 void add_tolerances(PageFlow& flow, const ToleranceResult& tolerances, const std::string& line) {
@@ -44,8 +45,9 @@ void add_tolerances(PageFlow& flow, const ToleranceResult& tolerances, const std
                           against(c.max_underbreak_area_m2, c.limits.max_underbreak_area_m2, 2)});
   flow.table(table);
   flow.paragraph(
-      "In brackets: what the set permits. Of measured places alone; \u201cnot shown\u201d: nothing is broken, "
-      "but less than 80 % was seen. Largest piece: of rock more than 1 cm inside the line. Source of the "
+      "In brackets: what the set permits. Of measured places alone. Broken: by more than two sigmas (registration, "
+      "distances, noise); \u201cundecided\u201d: by less; \u201cnot shown\u201d: nothing lies beyond a limit, but less "
+      "than 80 % was seen. Largest piece: of rock more than 1 cm inside the line. Source of the "
       "set: " +
           tolerances.source +
           ". Verified by: " + (tolerances.verified_by.empty() ? std::string("nobody") : tolerances.verified_by) + ".",
@@ -106,7 +108,7 @@ void add_clearance(PageFlow& flow, const ClearanceResult& clearance) {
                    [](const Intrusion* a, const Intrusion* b) { return a->deepest.inside_m > b->deepest.inside_m; });
   if (shown.size() > most_intrusions) shown.resize(most_intrusions);
   for (const Intrusion* i : shown)
-    table.rows.push_back({fixed(i->from_m, 2), fixed(i->to_m, 2), std::to_string(i->points),
+    table.rows.push_back({fixed(i->from_m, 2), fixed(i->to_m, 2) + (i->cut ? " *" : ""), std::to_string(i->points),
                           TableCell(fixed(i->deepest.inside_m, 3), colours::red), fixed(i->deepest.at.s_m, 2),
                           fixed(i->deepest.at.x_m, 2), fixed(i->deepest.at.z_m, 2), fixed(i->deepest_site.x(), 3),
                           fixed(i->deepest_site.y(), 3)});
@@ -115,7 +117,8 @@ void add_clearance(PageFlow& flow, const ClearanceResult& clearance) {
                                ? "The deepest " + std::to_string(shown.size()) + " of " +
                                      std::to_string(clearance.intrusions.size()) + " places. "
                                : std::string();
-  flow.paragraph(left +
+  const bool cut = std::any_of(shown.begin(), shown.end(), [](const Intrusion* i) { return i->cut; });
+  flow.paragraph(left + (cut ? "* reaches an end of the stretch and may go on beyond it. " : "") +
                      "All points count, whatever they belong to: rock, bolts, ducts, machines. clearance.csv lists "
                      "every one of them.",
                  colours::grey, 2.3);

@@ -32,10 +32,20 @@ std::string how_fitted(const JobRings& job, const RingsResult& result) {
     words += " Design radius " + fixed(design.radius_m, 4) + " m; the rings have " +
              with_sign(1e3 * (mean - design.radius_m), 1) + " mm on average.";
   }
+  if (design.tolerance_m > 0.0)
+    words += " The centre may lie off by " + fixed(1e3 * design.tolerance_m, 1) +
+             " mm to the side and in height; beyond that it is red, and broken where two sigmas do not explain it.";
   return words;
 }
 
-Table ring_table(const RingsResult& result, double design_radius_m) {
+TableCell off_mm(double deviation_m, const RingResult& ring, double tolerance_m) {
+  const bool beyond = tolerance_m > 0.0 && std::abs(deviation_m) > tolerance_m;
+  return {with_sign(1e3 * deviation_m, 1), beyond ? colours::red : colours::black,
+          beyond && ring.verdict == ToleranceVerdict::broken};
+}
+
+Table ring_table(const RingsResult& result, const RingDesign& design) {
+  const double design_radius_m = design.radius_m;
   Table table{{{"ring", 16, false},
                {"chainage m", 20, true},
                {"station m", 20, true},
@@ -59,8 +69,8 @@ Table ring_table(const RingsResult& result, double design_radius_m) {
                                fixed(r.center.x(), 3),
                                fixed(r.center.y(), 3),
                                fixed(r.center.z(), 3),
-                               with_sign(1e3 * r.horizontal_deviation_m, 1),
-                               with_sign(1e3 * r.vertical_deviation_m, 1),
+                               off_mm(r.horizontal_deviation_m, r, design.tolerance_m),
+                               off_mm(r.vertical_deviation_m, r, design.tolerance_m),
                                known(2e3 * r.sigma_center_m, 1),
                                fixed(r.radius_m, 4),
                                known(1e3 * r.ovality_m, 1),
@@ -104,7 +114,7 @@ void add_ring_pages(PageFlow& flow, const ReportContent& content) {
   }
   const Rect chart = flow.take(85.0);
   draw_ring_deviations(flow.canvas(), chart, result.rings);
-  flow.table(ring_table(result, content.job->rings->design.radius_m));
+  flow.table(ring_table(result, content.job->rings->design));
   add_drawings(flow, result);
 }
 

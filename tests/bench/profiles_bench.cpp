@@ -293,7 +293,8 @@ void bench_layer() {
     }
     return map_deviations(scans, design, 32.0, 50.0, {}, progress).map;
   };
-  const MapChange change = compare_maps(epoch(10, false), epoch(20, true), design, {0.05, 0.08}, {}, {}, 0.001);
+  const MapChange change =
+      compare_maps(epoch(10, false), epoch(20, true), design, {0.05, 0.08, {}}, standard_sectors(), {}, {}, {});
   double squares = 0.0, worst = 0.0;
   for (const LayerBlock& block : change.layer.blocks) {
     double truth = 0.0;

@@ -162,6 +162,13 @@ RegistrationResult registered(double sigma_m) {
   return registration;
 }
 
+/// Distances that may be off by that much, in each epoch by itself.
+ProfilingOptions biased_by(double range_bias_sigma_m) {
+  ProfilingOptions options;
+  options.range_bias_sigma_m = range_bias_sigma_m;
+  return options;
+}
+
 TEST(Layer, ThicknessVolumeAndClassesOfAShell) {
   const double radius = 4.0;
   const DesignTunnel design = tests::sample_design(tests::circle_profile(radius), 60.0);
@@ -171,7 +178,8 @@ TEST(Layer, ThicknessVolumeAndClassesOfAShell) {
     if (at.normal.y() < -0.5) return 0.10;
     return s > 22.0 && s < 24.0 ? 0.07 : 0.02;
   });
-  const MapChange change = compare_maps(before, after, design, {0.05, 0.07}, registered(0.001), registered(0.001), 0.0);
+  const MapChange change = compare_maps(before, after, design, {0.05, 0.07, {}}, standard_sectors(), registered(0.001),
+                                        registered(0.001), biased_by(0.0));
   EXPECT_NEAR(change.layer.measured_m2, 2.0 * pi * (radius + 0.07) * 8.0, 0.02 * 200.0);
   // Guldin per sector of the ring; on the curve both sides balance.
   const auto shell = [&](double inner) {
@@ -186,12 +194,44 @@ TEST(Layer, ThicknessVolumeAndClassesOfAShell) {
   EXPECT_EQ(change.change.outwards_m2, 0.0);
   EXPECT_NEAR(change.change.inwards_m3, change.layer.volume_m3, 1e-6) << "all of the layer is significant";
   // Distances that are off by 2 mm in each epoch move all of the shell.
-  const LayerResult biased = compare_maps(before, after, design, {}, registered(0.0), registered(0.0), 0.002).layer;
+  const LayerResult biased =
+      compare_maps(before, after, design, {}, standard_sectors(), registered(0.0), registered(0.0), biased_by(0.002))
+          .layer;
   EXPECT_NEAR(biased.sigma_volume_m3, std::sqrt(2.0) * 0.002 * biased.measured_m2, 1e-3 * biased.measured_m2 * 0.002);
   const LayerBlock& one = change.layer.blocks.front();
   EXPECT_NEAR(one.chainage_m, 20.5, 1e-9);
   EXPECT_GT(one.sigma_m, 0.0005);
   EXPECT_LT(one.sigma_m, 0.0015);
+}
+
+TEST(Layer, OnlyTheSectorsThatGetItAndWhatWasNotMeasured) {
+  const double radius = 4.0;
+  const DesignTunnel design = tests::sample_design(tests::circle_profile(radius), 60.0);
+  const DeviationMap before = tests::map_of(design, [](double, const ProfilePoint&) { return 0.0; });
+  DeviationMap after = tests::map_of(design, [](double s, const ProfilePoint& at) {
+    if (at.normal.y() < -0.5) return 0.0;  // the floor is bare
+    return s > 24.0 ? -0.06 : -0.04;       // 4 cm, then 6 cm
+  });
+  const LayerDesign layer{
+      0.03, 0.05, {"crown", "left shoulder", "right shoulder"}};  // within 70 degrees of straight up
+  const LayerResult whole =
+      compare_maps(before, after, design, layer, standard_sectors(), registered(0.0), registered(0.0), biased_by(0.0))
+          .layer;
+  EXPECT_EQ(whole.below_minimum, 0.0) << "the floor does not count";
+  EXPECT_NEAR(whole.surface_m2, 8.0 * radius * 2.0 * rad_from_deg(70.0), 0.5);
+  EXPECT_NEAR(whole.missing_m2, 0.0, 1e-9);
+  EXPECT_NEAR(whole.whole_volume_m3, whole.volume_m3, 1e-9);
+  // Of the thick half a quarter was not seen: the mean stands for it, and its sigma holds the truth.
+  for (std::size_t r = 0; r < after.rows; ++r)
+    if (after.row_chainage(r) > 26.0)
+      for (std::size_t c = 0; c < after.columns; ++c) after.cell(r, c) = {};
+  const LayerResult part =
+      compare_maps(before, after, design, layer, standard_sectors(), registered(0.0), registered(0.0), biased_by(0.0))
+          .layer;
+  EXPECT_NEAR(part.missing_m2, 0.25 * whole.surface_m2, 0.01 * whole.surface_m2);
+  EXPECT_LT(std::abs(part.whole_volume_m3 - whole.volume_m3), 2.0 * part.sigma_whole_m3);
+  EXPECT_GT(std::abs(part.whole_volume_m3 - whole.volume_m3), 0.01) << "thin where it was seen";
+  EXPECT_THROW(compare_maps(before, after, design, {0.03, 0.05, {"roof"}}, standard_sectors(), {}, {}, {}), Error);
 }
 
 TEST(Layer, NoiseIsNoSignificantChange) {
@@ -205,12 +245,13 @@ TEST(Layer, NoiseIsNoSignificantChange) {
     for (MapCell& cell : map.cells) cell.spread_m = static_cast<float>(spread);  // of 9 points each
     return map;
   };
-  const MapChange change = compare_maps(noisy(1), noisy(2), design, {}, registered(0.0), registered(0.0), 0.0);
+  const MapChange change = compare_maps(noisy(1), noisy(2), design, {}, standard_sectors(), registered(0.0),
+                                        registered(0.0), biased_by(0.0));
   const double share = (change.change.inwards_m2 + change.change.outwards_m2) / change.change.compared_m2;
   EXPECT_NEAR(share, 0.05, 0.005) << "a level of 95 %";
   DeviationMap other = noisy(1);
   other.step_q_m = 0.2;
-  EXPECT_THROW(compare_maps(other, noisy(2), design, {}, {}, {}, 0.0), Error);
+  EXPECT_THROW(compare_maps(other, noisy(2), design, {}, standard_sectors(), {}, {}, {}), Error);
 }
 
 TEST(Undulation, WavesAndDentsAreMeasuredUnderTheEdge) {

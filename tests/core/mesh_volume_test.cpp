@@ -54,6 +54,32 @@ TEST(MeshVolume, ATorusSegmentWithHolesAndJaggedEndsIsThatOfGuldin) {
   }
 }
 
+TEST(MeshVolume, PlanesSquareToASteepCurvedAxisHoldTheSameSpace) {
+  // A tube about an axis that climbs 12 %: between two square planes it holds area times length in space.
+  const Alignment axis("CL", HorizontalAlignment({{HorizontalKind::line, "", {0, 0}, 0.3, 60}}, 0.0),
+                       VerticalAlignment({{0, 10}, {60, 10 + 0.12 * 60}}));
+  const DesignTunnel design =
+      DesignTunnel(axis, {{0.0, tests::circle_profile()}}, {{"excavation", 0.0}}).standing(SectionPlane::square);
+  MeshArrays mesh;
+  const auto rings = static_cast<std::uint32_t>(std::lround((to_m - from_m) / step_m)) + 1;
+  for (std::uint32_t r = 0; r < rings; ++r)
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const double angle = 2.0 * pi * i / around;
+      mesh.points.push_back(
+          design.to_site({from_m + step_m * r, radius_m * std::sin(angle), radius_m * std::cos(angle)}));
+    }
+  for (std::uint32_t r = 0; r + 1 < rings; ++r)
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const std::uint32_t a = r * around + i, b = r * around + (i + 1) % around, c = a + around, d = b + around;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  const MeshVolume volume = MeshInTunnel(mesh, design).between(20.0, 40.0);
+  const double exact = pi * radius_m * radius_m * 20.0 * std::hypot(1.0, 0.12);
+  ASSERT_TRUE(volume.closed);
+  EXPECT_NEAR(volume.excavated_m3, exact, 4e-4 * exact);
+}
+
 TEST(MeshVolume, WhatIsNoTunnelIsLeftOut) {
   const DesignTunnel design = tests::sample_design(tests::circle_profile());
   MeshArrays mesh = tube(design, [](double, double) { return false; });

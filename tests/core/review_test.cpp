@@ -117,14 +117,15 @@ TEST(Tolerances, OverUnderAndWhatWasNotSeen) {
   poor.max_overbreak_m = 0.4;
   poor.mean_overbreak_m = 0.4;
   const ToleranceSet set{"set", "source", "", {row, poor}};
-  const auto checks = check_tolerances(map, design, {"excavation", 0.0}, standard_sectors(), set, {{26.0, "poor"}});
+  const auto checks =
+      check_tolerances(map, design, {"excavation", 0.0}, standard_sectors(), set, {{26.0, "poor"}}, {}, {});
   ASSERT_EQ(checks.size(), 12U);
   const ToleranceCheck& crown = checks[0];
   EXPECT_EQ(crown.sector, "crown");
   EXPECT_NEAR(crown.mean_overbreak_m, 0.1 + 0.2 / 3.0, 0.002);  // 2 of its 6 m are out
   EXPECT_NEAR(crown.over_limit_m2, 2.0 * radius_m * pi / 3.0, 0.3);
   EXPECT_TRUE(crown.broken());
-  EXPECT_TRUE(checks[6].kept()) << "poor rock may break out more";
+  EXPECT_EQ(checks[6].verdict(), ToleranceVerdict::kept) << "poor rock may break out more";
   const ToleranceCheck& left = checks[4];
   EXPECT_EQ(left.sector, "left wall");
   EXPECT_NEAR(left.max_underbreak_m, 0.05, 1e-6);
@@ -133,7 +134,42 @@ TEST(Tolerances, OverUnderAndWhatWasNotSeen) {
   EXPECT_TRUE(left.broken()) << "by its depth";
   const ToleranceCheck& invert = checks[3];
   EXPECT_FALSE(invert.broken());
-  EXPECT_FALSE(invert.kept()) << "too little of it was seen";
+  EXPECT_EQ(invert.verdict(), ToleranceVerdict::not_shown) << "too little of it was seen";
+}
+
+TEST(Tolerances, BeyondALimitByLessThanTwoSigmasIsNotDecided) {
+  const DesignTunnel design = tests::sample_design(tests::circle_profile(radius_m));
+  const DeviationMap map = tests::map_of(design, [](double s, const ProfilePoint& at) {
+    return s > 21.0 && s < 22.0 && at.normal.x() < -0.99 ? -0.034 : 0.1;
+  });
+  ToleranceRow row;
+  row.max_underbreak_m = 0.03;
+  row.mean_overbreak_m = 0.099;
+  row.max_underbreak_area_m2 = 0.1;
+  const ToleranceSet set{"set", "source", "", {row}};
+  const auto checked = [&](double sigma_m, double bias_m) {
+    RegistrationResult registration;
+    registration.scans.resize(1);
+    registration.scans[0].placed = true;
+    registration.scans[0].sigma.across_m = registration.scans[0].sigma.up_m = sigma_m;
+    ProfilingOptions options;
+    options.range_bias_sigma_m = bias_m;
+    return check_tolerances(map, design, {"excavation", 0.0}, standard_sectors(), set, {}, registration, options);
+  };
+  const auto sure = checked(0.0, 0.0), unsure = checked(0.003, 0.0), far_off = checked(0.03, 0.0);
+  const ToleranceCheck &left = sure[4], &unsure_left = unsure[4], &far_left = far_off[4];
+  ASSERT_EQ(left.sector, "left wall");
+  EXPECT_EQ(left.verdict(), ToleranceVerdict::broken);
+  EXPECT_EQ(left.sure_underbreak_m, left.max_underbreak_m);
+  // 34 mm, and the wall is known to 3 mm: it may as well be 28 mm. The patch is left for certain.
+  EXPECT_NEAR(unsure_left.sure_underbreak_m, 0.034 - 0.006, 1e-4);
+  EXPECT_EQ(unsure_left.sure_underbreak_area_m2, unsure_left.max_underbreak_area_m2);
+  EXPECT_EQ(unsure_left.verdict(), ToleranceVerdict::broken) << "by its area";
+  EXPECT_EQ(far_left.sure_underbreak_area_m2, 0.0) << "it may be no rock at all";
+  EXPECT_EQ(far_left.verdict(), ToleranceVerdict::undecided);
+  // The mean of the crown, 100 mm of 99 permitted, is moved by what the distances have in common.
+  EXPECT_EQ(sure[0].verdict(), ToleranceVerdict::broken);
+  EXPECT_EQ(checked(0.0, 0.001)[0].verdict(), ToleranceVerdict::undecided);
 }
 
 /// Points on a circle of a radius at many places, and a box of points that stands inside it.

@@ -123,6 +123,33 @@ TEST(Rings, ADesignCentreBesideTheAxisAndRingsInOrderOfChainage) {
   EXPECT_NEAR(result.rings[1].horizontal_deviation_m, 0.0, 1e-5);
 }
 
+TEST(Rings, ATolerancePermitsWhatTwoSigmasMayExplain) {
+  const Alignment axis = curve();
+  const auto radius = [](double clock) { return 1.7 + 0.002 * std::cos(7.0 * clock); };  // some misfit: a sigma
+  RingDesign design;
+  design.tolerance_m = 0.05;
+  const auto verdict = [&](double across_m) {
+    return fitted(ring_at(axis, 1042.0, {across_m, 0.0}, 12, radius), axis, design);
+  };
+  EXPECT_EQ(verdict(0.049).rings[0].verdict, ToleranceVerdict::kept);
+  EXPECT_TRUE(verdict(0.049).findings.empty());
+  EXPECT_EQ(verdict(-0.0505).rings[0].verdict, ToleranceVerdict::undecided);
+  EXPECT_EQ(verdict(0.06).rings[0].verdict, ToleranceVerdict::broken);
+  EXPECT_EQ(verdict(0.06).findings.size(), 1U);
+  design.tolerance_m = 0.0;
+  EXPECT_EQ(verdict(0.06).rings[0].verdict, ToleranceVerdict::not_shown);
+}
+
+TEST(Rings, OfFivePointsTheOddOneIsNamed) {
+  const Alignment axis = curve();
+  auto points = ring_at(axis, 1042.0, {0.0, 0.0}, 5, [](double) { return 2.5; });
+  const Eigen::Vector3d middle = axis.to_site({1042.0, 0.0, 0.0});
+  points[3].place.position += 0.08 * (middle - points[3].place.position).normalized();
+  const RingsResult result = fitted(points, axis);
+  ASSERT_FALSE(result.findings.empty());
+  EXPECT_EQ(result.findings[0].words.rfind("point 4 lies 80 mm off", 0), 0U) << result.findings[0].words;
+}
+
 TEST(Rings, WhatIsDoubtfulIsNamed) {
   const Alignment axis = curve();
   const auto round = [](double) { return 2.0; };

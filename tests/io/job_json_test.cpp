@@ -24,7 +24,7 @@ TEST(JobJson, EverythingOfTheDesignComesBackFromItsText) {
   job.sections = JobSections::both;
   job.zones = {{12.0, 13.0, -30.0, 60.0, "geological", "clay"}, {14.0, 15.0, -180.0, 180.0, "technical", ""}};
   job.tolerances = JobTolerances{"t.json", "", {{10.0, "A"}, {20.0, "B"}}};
-  job.before = JobBefore{"earlier.json", "earlier_out", {0.05, 0.07}};
+  job.before = JobBefore{"earlier.json", "earlier_out", {0.05, 0.07, {"upper"}}};
   job.face = true;
   job.straightedge = JobStraightedge{3.0, 0.2};
   job.sectors = {{"upper", -90.0, 90.0}, {"lower", 90.0, -90.0}};
