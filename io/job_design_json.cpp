@@ -172,6 +172,7 @@ JobTolerances read_job_tolerances(const JsonPlace& place, const fs::path& folder
     tolerances.file = existing_file(place, folder);
     return tolerances;
   }
+  if (!place.is_object()) place.refuse("tolerances are a file or one of the library", "write its name, or an object");
   place.only_keys({"file", "library", "rock_classes"});
   if (place.has("file") == place.has("library"))
     place.refuse("tolerances are a \"file\" or one of the \"library\"", "write one of the two");
@@ -189,6 +190,8 @@ JobTolerances read_job_tolerances(const JsonPlace& place, const fs::path& folder
 }
 
 JobBefore read_before(const JsonPlace& place, const fs::path& folder) {
+  if (!place.is_text() && !place.is_object())
+    place.refuse("the earlier job is a file or a folder", "write its name, or an object");
   JobBefore before;
   const JsonPlace job = place.is_text() ? place : place.at("job");
   before.job = job.text();
@@ -196,6 +199,8 @@ JobBefore read_before(const JsonPlace& place, const fs::path& folder) {
   const fs::path file = folder / before.job;
   if (before.job.empty() || !fs::exists(fs::is_directory(file, error) ? file / "job.json" : file, error))
     job.refuse("there is no job " + quoted_word(before.job), "paths are relative to the folder of job.json");
+  if (!fs::is_directory(file, error) && lower_ending(before.job) != ".json")
+    job.refuse(quoted_word(before.job) + " is no job", "name a job.json, or the folder that holds one");
   if (place.is_text()) return before;
   place.only_keys({"job", "out", "layer"});
   before.out = place.text_or("out", "");

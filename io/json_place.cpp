@@ -91,8 +91,9 @@ struct DoubleKeys {
 
 nlohmann::json parse_json_file(const std::filesystem::path& file) {
   std::error_code missing;
+  if (!std::filesystem::exists(file, missing)) throw Error("there is no such file", file.string(), "check the path");
   if (!std::filesystem::is_regular_file(file, missing))
-    throw Error("there is no such file", file.string(), "check the path");
+    throw Error("this is not a regular file", file.string(), "name a file on a disk");
   if (std::filesystem::file_size(file) > (1U << 28))
     throw Error("the file is larger than 256 MiB", file.string(), "this is not a file Adit reads as JSON");
   std::ifstream stream(file, std::ios::binary);

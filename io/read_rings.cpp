@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -16,7 +17,7 @@ namespace {
 constexpr double largest_offset_m = 0.5;
 const std::string form = "ring,point,east,north,elevation,target_offset";
 
-/// Adds points, each once.
+/// Adds points, each once. Those without a name get #1, #2, ... in their ring.
 class Collector {
  public:
   explicit Collector(double target_offset_m) : target_offset_m_(target_offset_m) {}
@@ -24,7 +25,7 @@ class Collector {
   template <typename Fail>
   void add(RingPoint point, const std::optional<double>& offset_m, const Fail& fail) {
     if (point.ring.empty()) fail("the point has no ring", "name the ring of every point");
-    if (point.point.empty()) fail("the point has no name", "name every point");
+    if (point.point.empty()) point.point = "#" + std::to_string(++unnamed_[point.ring]);
     point.place.target_offset_m = offset_m.value_or(target_offset_m_);
     if (std::abs(point.place.target_offset_m) > largest_offset_m)
       fail("a target offset of more than half a metre", "metres are needed");
@@ -44,6 +45,7 @@ class Collector {
   double target_offset_m_;
   RingFile file_;
   std::set<std::pair<std::string, std::string>> seen_;
+  std::map<std::string, int> unnamed_;  ///< of each ring
 };
 
 /// Where the columns stand: ring, point, east, north, elevation, target offset.
@@ -93,10 +95,10 @@ RingFile read_table(const std::filesystem::path& file, double target_offset_m) {
       columns = columns_of(rows.header());
     }
     first = false;
-    if (!columns.ring || !columns.point || !columns.east || !columns.north || !columns.elevation)
+    if (!columns.ring || !columns.east || !columns.north || !columns.elevation)
       throw Error("the header lacks a column", file.string(), "write the columns as " + form);
     rows.expect_fields(columns.needed(), 1000, form);
-    RingPoint point{rows.text(*columns.ring), rows.text(*columns.point), {}};
+    RingPoint point{rows.text(*columns.ring), columns.point ? rows.text(*columns.point) : std::string(), {}};
     point.place.position = {rows.coordinate(*columns.east), rows.coordinate(*columns.north),
                             rows.coordinate(*columns.elevation)};
     const bool has_offset =

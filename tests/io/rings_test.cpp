@@ -35,6 +35,14 @@ TEST_F(RingFiles, ATableWithItsOwnOrderAndOffsets) {
   EXPECT_EQ(read("7,a,1,2,3\n7,b,1,3,3,0.1\n").points[1].place.target_offset_m, 0.1);  // no header
 }
 
+TEST_F(RingFiles, PointsWithoutNamesAreNumberedInTheirRing) {
+  const RingFile file = read("ring,east,north,elevation\n7,0,0,0\n7,1,0,0\n8,0,5,0\n");
+  ASSERT_EQ(file.points.size(), 3U);
+  EXPECT_EQ(file.points[1].point, "#2");
+  EXPECT_EQ(file.points[2].point, "#1");
+  EXPECT_EQ(read("ring,point,east,north,elevation\n7,,0,0,0\n7,a,1,0,0\n").points[0].point, "#1");
+}
+
 TEST_F(RingFiles, LandXmlGroupsAreRings) {
   const RingFile file = read(
       "<LandXML><Units><Metric linearUnit=\"millimeter\"/></Units><CgPoints name=\"12\"><CgPoint name=\"1\">2000 1000 "
@@ -49,7 +57,7 @@ TEST_F(RingFiles, BrokenOnesAreRefusedByPlace) {
   expect_words(refusal("ring,point,east,north,elevation\n1,1,0,0,0\n1,1,0,1,0\n"), {"rings.csv:3", "given twice"});
   expect_words(refusal("ring,point,east,north,elevation\n1,1,0,x,0\n"), {"rings.csv:2:7", "\"x\""});
   expect_words(refusal("ring,point,east,north,elevation,offset\n1,1,0,0,0,38\n"), {"half a metre"});
-  expect_words(refusal("ring,east,north,elevation\n1,0,0,0\n"), {"lacks a column"});
+  expect_words(refusal("ring,north,elevation\n1,0,0\n"), {"lacks a column"});
   expect_words(refusal("ring,point,east,north,elevation\n,1,0,0,0\n"), {"no ring"});
   expect_words(refusal("# nothing\n"), {"no points of rings"});
   expect_words(refusal("<LandXML><Units><Metric linearUnit=\"meter\"/></Units></LandXML>", "r.xml"), {"no points"});
