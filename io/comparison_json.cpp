@@ -17,9 +17,10 @@ json face_json(const FaceMap& face) {
 json between_json(const CompareResult& result) {
   const FaceVolume& between = result.between;
   if (!between.whole) return nullptr;
-  json one{{"advance_m", between.advance_m},       {"sigma_advance_m", between.sigma_advance_m},
-           {"excavated_m3", between.excavated_m3}, {"sigma_m3", between.sigma_m3},
-           {"design_m3", between.design_m3},       {"guessed_m2", between.guessed_m2}};
+  json one{{"advance_m", between.advance_m},        {"sigma_advance_m", between.sigma_advance_m},
+           {"excavated_m3", between.excavated_m3},  {"sigma_m3", between.sigma_m3},
+           {"design_m3", between.design_m3},        {"guessed_m2", between.guessed_m2},
+           {"contour_share", between.contour_share}};
   const bool round = result.drilled_m > 0.0;
   one["round"] = round ? json(result.round) : json(nullptr);
   one["pull_efficiency"] = round ? json(between.advance_m / result.drilled_m) : json(nullptr);

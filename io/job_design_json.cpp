@@ -207,9 +207,11 @@ JobBefore read_before(const JsonPlace& place, const fs::path& folder) {
   if (!place.has("layer")) return before;
   const JsonPlace layer = place.at("layer");
   layer.only_keys({"minimum", "nominal", "sectors"});
-  before.layer.minimum_m = layer.at("minimum").number_between(0.0, 2.0, "m");
+  if (layer.has("minimum")) before.layer.minimum_m = layer.at("minimum").number_between(0.0, 2.0, "m");
   before.layer.nominal_m =
       layer.has("nominal") ? layer.at("nominal").number_between(0.0, 2.0, "m") : before.layer.minimum_m;
+  if (layer.has("nominal") && !layer.has("minimum"))
+    layer.refuse("a nominal thickness without a minimum", "write \"minimum\", too: 0 if there is none");
   if (before.layer.nominal_m < before.layer.minimum_m)
     layer.at("nominal").refuse("it is less than the minimum", "exchange them");
   if (!layer.has("sectors")) return before;
@@ -285,7 +287,7 @@ void add_review(const Job& job, nlohmann::ordered_json& root) {
   if (job.before) {
     nlohmann::ordered_json one{{"job", job.before->job}};
     if (!job.before->out.empty()) one["out"] = job.before->out;
-    if (job.before->layer != LayerDesign{})
+    if (job.before->layer.nominal_m > 0.0)
       one["layer"] = {{"minimum", job.before->layer.minimum_m}, {"nominal", job.before->layer.nominal_m}};
     if (!job.before->layer.sectors.empty()) one["layer"]["sectors"] = job.before->layer.sectors;
     root["before"] = one;

@@ -25,7 +25,9 @@ class Collector {
   template <typename Fail>
   void add(RingPoint point, const std::optional<double>& offset_m, const Fail& fail) {
     if (point.ring.empty()) fail("the point has no ring", "name the ring of every point");
-    if (point.point.empty()) point.point = "#" + std::to_string(++unnamed_[point.ring]);
+    if (point.point.empty()) do
+        point.point = "#" + std::to_string(++unnamed_[point.ring]);
+      while (seen_.count({point.ring, point.point}) != 0);
     point.place.target_offset_m = offset_m.value_or(target_offset_m_);
     if (std::abs(point.place.target_offset_m) > largest_offset_m)
       fail("a target offset of more than half a metre", "metres are needed");

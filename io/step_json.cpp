@@ -96,7 +96,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClearancePoint, scan, at, inside_m)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Intrusion, points, from_m, to_m, cut, deepest, deepest_site)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ClearanceResult, line, line_offset_m, points, intrusions)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FaceVolume, excavated_m3, sigma_m3, design_m3, from_m, to_m, advance_m,
-                                   sigma_advance_m, guessed_m2, whole)
+                                   sigma_advance_m, guessed_m2, contour_share, whole)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RockLeft, mean_m, most_m, over_03_share)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LayerDesign, minimum_m, nominal_m, sectors)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LayerBlock, chainage_m, p_m, measured_m2, mean_m, sigma_m)

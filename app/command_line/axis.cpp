@@ -95,14 +95,17 @@ class Rows {
 /// Both ends, every whole multiple of the interval between them and, if wanted, where elements of the plan begin, where
 /// grades meet and where their curves begin and end. Sorted, each once.
 std::vector<double> listed_chainages(const Arguments& arguments, const Alignment& axis) {
-  constexpr double same_m = 1e-6, most = 1e7;
+  constexpr double same_m = 1e-3, most = 1e7;
   const HorizontalAlignment& plan = axis.horizontal();
   const double from_m = std::max(plan.from_m(), arguments.from_m.value_or(plan.from_m()));
   const double to_m = std::min(plan.to_m(), arguments.to_m.value_or(plan.to_m()));
   const double every_m = arguments.every_m;
+  if (arguments.from_m && arguments.to_m && *arguments.from_m >= *arguments.to_m)
+    throw Error("--to is not greater than --from", "command line", "exchange them");
   if (!(from_m < to_m))
     throw Error("there is nothing of the axis between them", "--from, --to",
-                "the axis runs from " + short_number(plan.from_m()) + " to " + short_number(plan.to_m()));
+                "the axis runs from " + short_number(std::round(1e3 * plan.from_m()) / 1e3) + " to " +
+                    short_number(std::round(1e3 * plan.to_m()) / 1e3));
   if ((to_m - from_m) / every_m > most) throw Error("more than 10 million rows", "--every", "use a larger interval");
   std::vector<double> chainages{from_m, to_m};
   for (double k = std::floor(from_m / every_m) + 1.0; k * every_m < to_m; ++k) chainages.push_back(k * every_m);

@@ -79,13 +79,13 @@ void add_review(std::string& text, const Results& results) {
   if (!results.volume->zones.empty()) add(text, "  unassigned: overbreak %.2f m3\n", rest_m3);
   const ToleranceResult& tolerances = results.volume->tolerances;
   if (tolerances.set.empty()) return;
-  const auto kept = std::count_if(tolerances.checks.begin(), tolerances.checks.end(), [](const ToleranceCheck& check) {
-    return check.verdict() == ToleranceVerdict::kept;
-  });
-  const auto broken = std::count_if(tolerances.checks.begin(), tolerances.checks.end(),
-                                    [](const ToleranceCheck& check) { return check.broken(); });
-  add(text, "\nTolerances \"%s\": %td of %zu kept, %td broken\n", tolerances.set.c_str(), kept,
-      tolerances.checks.size(), broken);
+  const auto count = [&](ToleranceVerdict verdict) {
+    return std::count_if(tolerances.checks.begin(), tolerances.checks.end(),
+                         [&](const ToleranceCheck& check) { return check.verdict() == verdict; });
+  };
+  add(text, "\nTolerances \"%s\": %td of %zu kept, %td broken, %td undecided, %td not shown\n", tolerances.set.c_str(),
+      count(ToleranceVerdict::kept), tolerances.checks.size(), count(ToleranceVerdict::broken),
+      count(ToleranceVerdict::undecided), count(ToleranceVerdict::not_shown));
 }
 
 void add_face(std::string& text, const char* epoch, const FaceMap& face) {

@@ -24,7 +24,7 @@ bool wanted(const JobState& state) {
 
 std::string depends_on(const JobState& state) {
   const Job& job = state.job;
-  std::string text = "compare 5|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "") +
+  std::string text = "compare 6|" + state.keys.at("profile") + "|" + state.before_key + (job.face ? "|face" : "") +
                      (job.driven_up_chainage ? "" : "|down");
   if (job.before)
     text += "|" + short_number(job.before->layer.minimum_m) + "," + short_number(job.before->layer.nominal_m);
@@ -129,7 +129,7 @@ const JobRound* round_between(const Job& job, const FaceVolume& between) {
 
 /// The walls between two faces, whatever stretch the job profiles.
 DeviationMap map_between(const JobState& state, const CompareResult& result, Progress& progress) {
-  constexpr double known_walls_m = 3.0, beyond_m = 0.3;
+  constexpr double known_walls_m = 12.0, beyond_m = 0.3;  // two or three rounds
   const FaceSummary first = summarise(result.face_before), second = summarise(result.face);
   const Alignment& axis = state.design->alignment();
   const double from_m = std::max(axis.from_m(), std::min(first.least_m, second.least_m) - known_walls_m);
@@ -146,10 +146,20 @@ void compare_faces(const JobState& state, const JobState& before, CompareResult&
                                   common_sigma(state.results.registration).along_m, state.results.registration,
                                   state.job.options.profiling, progress);
   if (!result.between.whole) {
-    result.findings.push_back({Severity::warning, "faces",
-                               "the axis ends before one of them: there is no volume between them",
-                               "export a longer axis"});
+    result.findings.push_back(
+        {Severity::warning, "faces",
+         "the axis ends before one of them, or nothing of the walls behind them was seen: there is "
+         "no volume between them",
+         "export a longer axis, or scan the walls near the face"});
     return;
+  }
+  if (result.between.contour_share < 0.8) {
+    char words[200];
+    std::snprintf(words, sizeof words,
+                  "of the walls between them %.0f %% of the length was seen; the rest has the outline of the nearest "
+                  "walls that were, and the volume's sigma says how far outlines differ",
+                  100.0 * result.between.contour_share);
+    result.findings.push_back({Severity::warning, "faces", words, "scan from nearer to the face"});
   }
   if (result.between.advance_m < 0.0) {
     char words[120];
@@ -177,7 +187,7 @@ void compare_surfaces(JobState& state, const JobState& before, const std::vector
   result.layer = std::move(change.layer);
   result.change = change.change;
   state.change = std::move(change.thickness);
-  if (result.layer.below_minimum > 0.0) {
+  if (job.before->layer.nominal_m > 0.0 && result.layer.below_minimum > 0.0) {
     char thin[200];
     std::snprintf(thin, sizeof thin, "%.1f %% of %zu square metres are thinner than the minimum of %.0f mm%s",
                   100.0 * result.layer.below_minimum, result.layer.blocks.size(), 1e3 * result.layer.design.minimum_m,

@@ -14,7 +14,7 @@ bool wanted(const JobState& state) {
 
 std::string depends_on(const JobState& state) {
   const JobRings& rings = *state.job.rings;
-  std::string text = "rings 3|" + state.input_sha256.at(rings.file) + "|" + state.input_sha256.at(state.job.alignment) +
+  std::string text = "rings 4|" + state.input_sha256.at(rings.file) + "|" + state.input_sha256.at(state.job.alignment) +
                      "|" + state.job.alignment_name;
   for (const double number :
        {state.job.alignment_start_m.value_or(0.0), rings.target_offset_m, rings.design.center_offset_m,

@@ -19,7 +19,7 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "volume 11|" + state.keys.at("profile");
+  std::string text = "volume 12|" + state.keys.at("profile");
   if (const auto surface = state.keys.find("surface"); surface != state.keys.end()) text += "|" + surface->second;
   for (const JobRound& round : state.job.rounds)
     text += "|" + std::to_string(round.number) + "," + short_number(round.from_m) + "," + short_number(round.to_m) +
@@ -47,8 +47,8 @@ void add_mesh(const std::optional<MeshInTunnel>& mesh, const std::string& subjec
   if (!volume.mesh.closed || std::abs(off_m3) <= far_m3) return;
   char words[160];
   std::snprintf(words, sizeof words,
-                "the surface mesh holds %+.2f m3 more than the slices; %.1f m2 of its holes were closed by triangles",
-                off_m3, volume.mesh.filled_m2);
+                "the surface mesh holds %.2f m3 %s than the slices; %.1f m2 of its holes were closed by triangles",
+                std::abs(off_m3), off_m3 > 0.0 ? "more" : "less", volume.mesh.filled_m2);
   findings.push_back({Severity::warning, subject, words, "look at the sections where much was not seen"});
 }
 
@@ -113,19 +113,19 @@ void add_zones(const JobState& state, VolumeResult& result) {
 Finding tolerance_finding(const ToleranceCheck& check, const DesignLine& line) {
   std::string words = "rock class " + check.rock_class + ", against " + line.name + ": ";
   if (check.beyond()) {
-    const auto add = [&](const char* what, double value, double limit, const char* unit, const char* format) {
+    const auto add = [&](const char* what, double value, double sure, double limit, const char* unit) {
       if (value <= limit) return;
-      char one[120];
-      std::snprintf(one, sizeof one, format, what, value, unit, limit, unit);
+      char one[160];
+      std::snprintf(one, sizeof one, "%s %.4f %s of %.4f %s permitted%s", what, value, unit, limit, unit,
+                    sure > limit ? "" : " (undecided: less than two sigmas)");
       words += (words.ends_with(": ") ? "" : ", ") + std::string(one);
     };
     const ToleranceRow& limits = check.limits;
-    constexpr const char* length = "%s %.4f %s of %.4f %s permitted";
-    add("mean overbreak", check.mean_overbreak_m, limits.mean_overbreak_m, "m", length);
-    add("overbreak", check.max_overbreak_m, limits.max_overbreak_m, "m", length);
-    add("underbreak", check.max_underbreak_m, limits.max_underbreak_m, "m", length);
-    add("a piece left inside", check.max_underbreak_area_m2, limits.max_underbreak_area_m2, "m2", length);
-    if (!check.broken()) words += ", but by less than two sigmas: the measurement does not decide it";
+    add("mean overbreak", check.mean_overbreak_m, check.sure_mean_overbreak_m, limits.mean_overbreak_m, "m");
+    add("overbreak", check.max_overbreak_m, check.sure_overbreak_m, limits.max_overbreak_m, "m");
+    add("underbreak", check.max_underbreak_m, check.sure_underbreak_m, limits.max_underbreak_m, "m");
+    add("a piece left inside", check.max_underbreak_area_m2, check.sure_underbreak_area_m2,
+        limits.max_underbreak_area_m2, "m2");
     return {Severity::warning, "tolerance of " + check.sector, words, "look at the map and at tolerances.csv"};
   }
   char seen[120];

@@ -84,15 +84,54 @@ struct Rows {
 };
 
 /// For each row its own outline, or that of the nearest row that is known well enough.
-std::vector<Polygon> outlines(const Rows& rows, std::size_t first, std::size_t last) {
+struct Contours {
+  std::vector<Polygon> rings;
+  std::vector<char> known;
+  std::vector<double> known_share;  ///< of each row's own outline
+  /// First of so many rows that are known best.
+  std::size_t best_known(std::size_t count) const {
+    std::size_t best = 0;
+    double sum = 0.0, most = -1.0;
+    for (std::size_t i = 0; i < known_share.size(); ++i) {
+      sum += known_share[i];
+      if (i >= count) sum -= known_share[i - count];
+      if (i + 1 < count || sum <= most + 1e-9) continue;
+      most = sum;
+      best = i + 1 - count;
+    }
+    return best;
+  }
+  bool any() const { return std::find(known.begin(), known.end(), 1) != known.end(); }
+  /// By how much the areas of known outlines differ (one sigma), and no less than a third of their mean overbreak: a
+  /// look-out's saw-tooth may not show in few of them.
+  double area_spread_m2(double design_m2) const {
+    constexpr double well_known = 0.7;  // what is unseen lies on the line, and would spread areas by itself
+    const double best = *std::max_element(known_share.begin(), known_share.end());
+    double n = 0.0, sum = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      if (known_share[i] < std::min(well_known, best)) continue;
+      const double over_m2 = std::abs(area_moment(rings[i]).area_m2) - design_m2;
+      n += 1.0;
+      sum += over_m2;
+      squares += over_m2 * over_m2;
+    }
+    if (n == 0.0) return 0.0;
+    const double mean = sum / n;
+    return std::max(std::sqrt(std::max(0.0, squares / n - mean * mean)), std::abs(mean) / 3.0);
+  }
+};
+
+Contours outlines(const Rows& rows, std::size_t first, std::size_t last) {
   std::vector<Polygon> rings(last - first);
   std::vector<char> known(last - first, 0);
+  std::vector<double> share(last - first, 0.0);
   parallel_for_each_index(
       rings.size(),
       [&](std::size_t i) {
         const Outline outline = rows.outline(first + i);
         const double line_m = outline.measured_m + outline.interpolated_m + outline.unseen_m;
-        known[i] = outline.measured_m + outline.interpolated_m >= least_known * line_m ? 1 : 0;
+        share[i] = (outline.measured_m + outline.interpolated_m) / line_m;
+        known[i] = share[i] >= least_known ? 1 : 0;
         rings[i] = polygon_of(outline.points, 0.0);
       },
       4);
@@ -105,7 +144,7 @@ std::vector<Polygon> outlines(const Rows& rows, std::size_t first, std::size_t l
       chosen[i] = rings[below ? i - away : i + away];
       break;
     }
-  return chosen;
+  return {std::move(chosen), std::move(known), std::move(share)};
 }
 
 struct Sums {
@@ -136,16 +175,17 @@ FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const Dev
     return static_cast<std::size_t>(
         std::clamp((s_m - map.from_m) / map.step_s_m, 0.0, static_cast<double>(map.rows - 1)));
   };
-  // Some rows more to either side, so that there are known outlines to take.
-  const std::size_t begin = row_of(least_m - 3.0), end = row_of(greatest_m + 0.5) + 1;
   const Rows rows{map, design, options.gap_m};
-  const std::vector<Polygon> rings = outlines(rows, begin, end);
+  const Contours contours = outlines(rows, 0, map.rows);
+  volume.whole = contours.any();
+  if (!volume.whole) return volume;
+  const std::vector<Polygon>& rings = contours.rings;
   const FilledFace from{before}, to{after};
   const Sums sums = parallel_ordered_sum(rings.size(), 2, Sums{}, [&](std::size_t b, std::size_t e) {
     Sums part;
     for (std::size_t i = b; i < e; ++i) {
       progress.check();
-      const double middle_m = map.row_chainage(begin + i);
+      const double middle_m = map.row_chainage(i);
       const Slice slice{middle_m - 0.5 * map.step_s_m, middle_m + 0.5 * map.step_s_m, design.slice_shape(middle_m)};
       if (slice.to_m < least_m || slice.from_m > greatest_m) continue;
       const LinePolygon wanted = line_polygon(design.profile_at(middle_m), design.line_at(line, middle_m));
@@ -156,7 +196,7 @@ FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const Dev
   volume.excavated_m3 = sums.excavated_m3;
   volume.design_m3 = sums.design_m3;
   double face_m2 = 0.0, hidden_m2 = 0.0;
-  for_each_inside(rings[row_of(0.5 * (volume.from_m + volume.to_m)) - begin], [&](double x, double z) {
+  for_each_inside(rings[row_of(0.5 * (volume.from_m + volume.to_m))], [&](double x, double z) {
     face_m2 += raster_m * raster_m;
     for (const FilledFace* face : {&from, &to}) {
       const FaceKind kind = face->kind(x, z);
@@ -168,11 +208,22 @@ FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const Dev
   const double relief_m = std::max(first.spread_m, second.spread_m);
   const double guessed_variance_m6 =
       std::pow(hidden_m2 * relief_m, 2) + (volume.guessed_m2 - hidden_m2) * correlated_m2 * relief_m * relief_m;
-  const double along_m = std::hypot(before_along_sigma_m, after_along_sigma_m);
+  const double along_m =
+      std::hypot(before_along_sigma_m, after_along_sigma_m, std::sqrt(2.0) * options.range_bias_sigma_m);
   const double guessed_m = face_m2 > 0.0 ? std::sqrt(guessed_variance_m6) / face_m2 : 0.0;
   volume.sigma_advance_m = std::hypot(along_m, guessed_m);
-  const double contour_m3 =
-      volume_sigma_m3(map, design, line, volume.from_m, volume.to_m, VolumePart::excavated, registration, options);
+  // The contour: as of the best known rows, as many as lie between the faces, and what was taken from others.
+  const std::size_t from_row = row_of(volume.from_m), to_row = row_of(volume.to_m), count = to_row - from_row + 1;
+  std::size_t known_rows = 0;
+  for (std::size_t r = from_row; r <= to_row; ++r) known_rows += contours.known[r] != 0 ? 1 : 0;
+  volume.contour_share = static_cast<double>(known_rows) / static_cast<double>(count);
+  const double best_from_m = map.row_chainage(contours.best_known(count)) - 0.5 * map.step_s_m;
+  const double seen_m3 =
+      volume_sigma_m3(map, design, line, best_from_m, best_from_m + static_cast<double>(count) * map.step_s_m,
+                      VolumePart::excavated, registration, options);
+  const double design_m2 = volume.design_m3 / std::max(1e-6, volume.to_m - volume.from_m);
+  const double taken_m3 = contours.area_spread_m2(design_m2) * static_cast<double>(count - known_rows) * map.step_s_m;
+  const double contour_m3 = std::hypot(seen_m3, taken_m3);
   volume.sigma_m3 = std::sqrt(std::pow(face_m2 * along_m, 2) + guessed_variance_m6 + contour_m3 * contour_m3);
   return volume;
 }

@@ -16,13 +16,15 @@ struct FaceVolume {
   double to_m = 0.0;
   double advance_m = 0.0;  ///< between the means, in the direction of drive
   double sigma_advance_m = 0.0;
-  double guessed_m2 = 0.0;  ///< of both faces, inside the outline: not seen, taken from the nearest place that was
-  bool whole = false;       ///< false: the map does not hold both faces; no volume then
+  double guessed_m2 = 0.0;     ///< of both faces, inside the outline: not seen, taken from the nearest place that was
+  double contour_share = 0.0;  ///< of the length between the faces whose outline is known
+  bool whole = false;          ///< false: the map does not hold both faces, or no outline near them; no volume then
 };
 
 /// dV = ds * double integral of (1 - k x) dx dz (SliceShape) over what lies inside a slice's outline and between the
 /// faces, on the faces' grid refined to 5 cm. Slices less than 40 % of whose outline is known (the walls end at the
-/// face) take the outline of the nearest that is better known. along_sigma_m: of each epoch's scans along the axis.
+/// face) take the outline of the nearest that is better known, and count as wrong by as much as outlines differ in
+/// area: give the map some metres of known walls before the faces. along_sigma_m: of each epoch's scans along the axis.
 FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const DeviationMap& map,
                           const DesignTunnel& design, const DesignLine& line, double before_along_sigma_m,
                           double after_along_sigma_m, const RegistrationResult& registration,

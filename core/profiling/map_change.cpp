@@ -75,7 +75,14 @@ struct LayerSectors {
       has_layer[static_cast<std::size_t>(found - all.begin())] = 1;
     }
   }
-  bool holds(const Eigen::Vector2d& normal) const { return has_layer[sector_of(sectors, normal)] != 0; }
+  /// Of a cell: it may lie in two sectors.
+  double share(const ProfileStretch& stretch, double q0, double q1) const {
+    constexpr int pieces = 5;
+    int inside = 0;
+    for (int i = 0; i < pieces; ++i)
+      inside += has_layer[sector_of(sectors, stretch.at(q0 + (q1 - q0) * (i + 0.5) / pieces).normal)] != 0 ? 1 : 0;
+    return static_cast<double>(inside) / pieces;
+  }
 };
 
 /// Sums over the map, in blocks of about a square metre.
@@ -95,8 +102,8 @@ struct Comparison {
     const double q1 = std::min(q0 + after.step_q_m, stretch.length_m());
     const double line_m2 = stretch.line_length_m(q0, q1) * after.step_s_m;
     const ProfilePoint at = stretch.at(0.5 * (q0 + q1));
-    const bool in_layer = sectors.holds(at.normal);
-    if (in_layer) block.line_m2 += line_m2;
+    const double share = sectors.share(stretch, q0, q1);
+    block.line_m2 += share * line_m2;
     const MapCell &old = before.cell(r, c), &present = after.cell(r, c);
     if (old.kind != CellKind::measured || present.kind != CellKind::measured) return;
     const double half_way_m = 0.5 * static_cast<double>(old.deviation_m + present.deviation_m);
@@ -105,9 +112,11 @@ struct Comparison {
                     static_cast<double>(old.deviation_m - present.deviation_m),
                     noise_squared_m2(old) + noise_squared_m2(present), at.normal,
                     0.5 * static_cast<double>(old.incidence + present.incidence)};
-    if (in_layer) {
-      block.measured_line_m2 += line_m2;
-      block.add(pair, sigma);
+    if (share > 0.0) {
+      Pair part = pair;
+      part.area_m2 *= share;
+      block.measured_line_m2 += share * line_m2;
+      block.add(part, sigma);
     }
     const double level_m = 1.96 * std::hypot(std::sqrt(pair.noise2_m2), sigma.along_normal(at.normal, pair.incidence));
     levels.push_back(level_m);

@@ -52,28 +52,31 @@ void for_triples(std::size_t n, const Visit& visit) {
   for (std::uint64_t t = 0; t < draws; ++t) visit(drawn(3 * t), drawn(3 * t + 1), drawn(3 * t + 2));
 }
 
-/// Of five points the one that lies off a circle through three of the others on which the fourth lies too. None where
-/// several could be the one.
-std::vector<std::size_t> odd_one_of_five(const Flat& points, double off_m) {
-  std::vector<std::size_t> odd;
-  for (std::size_t left_out = 0; left_out < points.size(); ++left_out) {
-    Flat others;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (i != left_out) others.push_back(points[i]);
-    const auto circle = circle_through(others[0], others[1], others[2]);
-    if (!circle) continue;
-    Flat rest{others[3], points[left_out]};
-    const std::vector<double> distances = distances_from(*circle, rest);
-    if (distances[0] <= off_m && distances[1] > off_m) odd.push_back(left_out);
-  }
-  return odd.size() == 1 ? odd : std::vector<std::size_t>{};
+/// Of five points the one without which the other four fit to a circle far better than without any other one.
+std::vector<std::size_t> odd_one_of_five(const std::vector<RingPlace>& places, const Eigen::Vector3d& along,
+                                         double least_m) {
+  constexpr double far_better = 3.0;
+  const auto without = [&](std::size_t left_out) {
+    std::vector<RingPlace> others = places;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
+    return fit_ring(others, along);
+  };
+  std::vector<double> rms_m;
+  for (std::size_t i = 0; i < places.size(); ++i) rms_m.push_back(without(i).rms_m);
+  const auto odd = static_cast<std::size_t>(std::min_element(rms_m.begin(), rms_m.end()) - rms_m.begin());
+  for (std::size_t i = 0; i < rms_m.size(); ++i)
+    if (i != odd && rms_m[i] < far_better * rms_m[odd]) return {};
+  const RingFit rest = without(odd);
+  const double off_m =
+      std::abs((places[odd].position - rest.center).norm() + places[odd].target_offset_m - rest.radius_m);
+  return off_m > least_m ? std::vector{odd} : std::vector<std::size_t>{};
 }
 
 }  // namespace
 
 std::vector<std::size_t> ring_outliers(const std::vector<RingPlace>& places, const RingFit& fit,
                                        const Eigen::Vector3d& along) {
-  constexpr double least_m = 0.03, share_of_radius = 0.02, sigmas = 3.0;  // linings are no circles to that
+  constexpr double least_m = 0.03, sigmas = 3.0;
   if (places.size() < 5) return {};
   // Square to the axis: the ring's own plane may be that of its wrong points.
   const Eigen::Quaterniond flat_from_site = Eigen::Quaterniond::FromTwoVectors(along, Eigen::Vector3d::UnitZ());
@@ -82,7 +85,7 @@ std::vector<std::size_t> ring_outliers(const std::vector<RingPlace>& places, con
     const Eigen::Vector2d point = (flat_from_site * (place.position - fit.center)).head<2>();
     flat.push_back(point + place.target_offset_m * point.normalized());  // to the surface, as good as it is known
   }
-  if (flat.size() == 5) return odd_one_of_five(flat, std::max(least_m, share_of_radius * fit.radius_m));
+  if (places.size() == 5) return odd_one_of_five(places, along, least_m);
   double least_median = std::numeric_limits<double>::infinity();
   FlatCircle best{};
   for_triples(flat.size(), [&](std::size_t i, std::size_t j, std::size_t k) {
@@ -97,7 +100,7 @@ std::vector<std::size_t> ring_outliers(const std::vector<RingPlace>& places, con
   std::vector<std::size_t> off;
   const std::vector<double> distances = distances_from(best, flat);
   for (std::size_t i = 0; i < distances.size(); ++i)
-    if (distances[i] > std::max({least_m, share_of_radius * best.radius_m, sigmas * sigma})) off.push_back(i);
+    if (distances[i] > std::max(least_m, sigmas * sigma)) off.push_back(i);
   return off.size() + 3 > places.size() ? std::vector<std::size_t>{} : off;
 }
 

@@ -126,13 +126,23 @@ ToleranceVerdict verdict_of(const RingResult& result, double tolerance_m) {
   return off_m - 2.0 * result.sigma_center_m > tolerance_m ? ToleranceVerdict::broken : ToleranceVerdict::undecided;
 }
 
+/// What must be decided of a ring leaves its place undecided.
+bool has_decision(const Findings& findings, const std::string& subject) {
+  return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+    return finding.severity == Severity::decision && finding.subject == subject;
+  });
+}
+
 void judge_place(const RingResult& result, double tolerance_m, const std::string& subject, Findings& findings) {
   if (result.verdict != ToleranceVerdict::broken && result.verdict != ToleranceVerdict::undecided) return;
   const double off_m = std::max(std::abs(result.horizontal_deviation_m), std::abs(result.vertical_deviation_m));
+  if (off_m <= tolerance_m) return;  // said already: there is something to decide
   findings.push_back({Severity::warning, subject,
                       "its centre lies " + millimetres(off_m) + " off, of " + millimetres(tolerance_m) + " permitted" +
                           (result.verdict == ToleranceVerdict::undecided
-                               ? ", but by less than two sigmas: the measurement does not decide it"
+                               ? std::isfinite(result.sigma_center_m)
+                                     ? ", but by less than two sigmas: the measurement does not decide it"
+                                     : ", but three points leave no sigma: the measurement does not decide it"
                                : ""),
                       "look at rings.csv"});
 }
@@ -159,13 +169,15 @@ RingResult result_of(const std::string& name, const Ring& ring, const Alignment&
   result.rms_m = fit.rms_m;
   result.sigma_center_m = fit.sigma_center_m;
   result.sigma_radius_m = fit.sigma_radius_m;
-  result.verdict = verdict_of(result, design.tolerance_m);
   result.tilt_deg = deg_from_rad(std::acos(std::min(1.0, std::abs(fit.normal.dot(tunnel.along)))));
   for (std::size_t i = 0; i < ring.size(); ++i)
     result.residuals.push_back(
         {ring[i]->point, tunnel.clock_deg(ring[i]->place.position - fit.center), fit.residuals_m[i]});
   look_for_blunders(ring, fit, tunnel, subject, findings);
   judge(ring, fit, result, design, subject, findings);
+  result.verdict = verdict_of(result, design.tolerance_m);
+  if (result.verdict == ToleranceVerdict::kept && has_decision(findings, subject))
+    result.verdict = ToleranceVerdict::undecided;
   judge_place(result, design.tolerance_m, subject, findings);
   return result;
 }

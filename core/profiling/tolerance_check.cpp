@@ -9,6 +9,7 @@ namespace adit {
 namespace {
 
 constexpr double left_inside_m = 0.01;  // less is noise, not rock that was left
+constexpr int pieces = 5;               // of a cell
 
 struct CellPlace {
   int check = -1;  ///< which check it belongs to; none for cells beyond the line's end or without limits
@@ -64,13 +65,23 @@ struct Checker {
       const MapCell& cell = map.cell(r, c);
       CellPlace& place = places[r * map.columns + c];
       if (cell.kind == CellKind::opening) continue;
-      const Eigen::Vector2d normal = stretch.at(0.5 * (q0 + q1)).normal;
-      place.check = check_of(rock_class, normal);
-      if (place.check < 0) continue;
-      place.area_m2 = stretch.line_length_m(q0, q1) * map.step_s_m;
-      place.measured = cell.kind == CellKind::measured;
-      if (place.measured) measure(place, cell, normal, offset_m);
-      add_cell(place, chainage_m);
+      // A cell at the border of a sector is counted in pieces; as rock left inside it belongs where its middle is.
+      for (int piece = 0; piece < pieces; ++piece) {
+        const double a = q0 + (q1 - q0) * piece / pieces, b = q0 + (q1 - q0) * (piece + 1) / pieces;
+        const Eigen::Vector2d normal = stretch.at(0.5 * (a + b)).normal;
+        CellPlace part;
+        part.check = check_of(rock_class, normal);
+        if (piece == pieces / 2) place.check = part.check;
+        if (part.check < 0) continue;
+        part.area_m2 = stretch.line_length_m(a, b) * map.step_s_m;
+        part.measured = cell.kind == CellKind::measured;
+        if (part.measured) measure(part, cell, normal, offset_m);
+        add_cell(part, chainage_m);
+        place.area_m2 += part.area_m2;
+        place.measured = part.measured;
+        place.over_m = part.over_m;
+        place.two_sigma_m = part.two_sigma_m;
+      }
     }
   }
 
@@ -108,7 +119,7 @@ struct Checker {
   /// Rock left inside the line; `surely`: by more than two sigmas.
   bool is_left(std::size_t cell, bool surely) const {
     const CellPlace& place = places[cell];
-    const double least_m = surely ? std::max(left_inside_m, place.two_sigma_m) : left_inside_m;
+    const double least_m = left_inside_m + (surely ? place.two_sigma_m : 0.0);
     return place.check >= 0 && place.measured && place.over_m < -least_m;
   }
 
@@ -138,8 +149,9 @@ struct Checker {
     for (std::size_t i = 0; i < patch.size(); ++i) {
       const std::size_t row = patch[i] / map.columns, column = patch[i] % map.columns;
       area_m2 += places[patch[i]].area_m2;
-      if (column > 0) add(patch[i] - 1);
-      if (column + 1 < map.columns) add(patch[i] + 1);
+      // The map is opened at the middle of the floor: its first and last column are neighbours.
+      add(row * map.columns + (column + map.columns - 1) % map.columns);
+      add(row * map.columns + (column + 1) % map.columns);
       if (row > 0) add(patch[i] - map.columns);
       if (row + 1 < map.rows) add(patch[i] + map.columns);
     }

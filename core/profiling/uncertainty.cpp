@@ -112,7 +112,8 @@ double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, cons
     row_amount_m2.push_back(amount);
   }
   const PoseSigma sigma = common_sigma(registration);
-  const double mean = sums.measured_m2 > 0.0 ? sums.deviation_sum / sums.measured_m2 : 0.0;
+  // Where nothing was measured at all, the rock may be anywhere that it is looked for.
+  const double mean = sums.measured_m2 > 0.0 ? sums.deviation_sum / sums.measured_m2 : 0.5 * options.reach_out_m;
   const double variance = sums.measured_m2 > 0.0 ? sums.deviation_square / sums.measured_m2 - mean * mean : 0.0;
   const double rock_variance = std::max(variance, 0.0);
   const double unseen =

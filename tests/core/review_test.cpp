@@ -137,6 +137,22 @@ TEST(Tolerances, OverUnderAndWhatWasNotSeen) {
   EXPECT_EQ(invert.verdict(), ToleranceVerdict::not_shown) << "too little of it was seen";
 }
 
+TEST(Tolerances, APieceAcrossTheMiddleOfTheFloorIsOneAndNarrowSectorsCount) {
+  const DesignTunnel design = tests::sample_design(tests::circle_profile(radius_m));
+  const DeviationMap map = tests::map_of(design, [](double s, const ProfilePoint& at) {
+    return s > 21.0 && s < 22.0 && at.normal.y() < -0.99 ? -0.05 : 0.1;
+  });
+  ToleranceRow row;
+  row.max_underbreak_area_m2 = 1.0;
+  const ToleranceSet set{"set", "source", "", {row}};
+  const std::vector<Sector> sectors{{"strip", -0.5, 0.5}, {"rest", 0.5, -0.5}};
+  const auto checks = check_tolerances(map, design, {"excavation", 0.0}, sectors, set, {}, {}, {});
+  ASSERT_EQ(checks.size(), 2U);
+  const double arc_m = 2.0 * radius_m * std::acos(0.99);
+  EXPECT_NEAR(checks[1].max_underbreak_area_m2, 1.0 * arc_m, 0.15) << "the map is opened there";
+  EXPECT_NEAR(checks[0].surface_m2, 8.0 * radius_m * rad_from_deg(1.0), 0.35) << "narrower than a cell";
+}
+
 TEST(Tolerances, BeyondALimitByLessThanTwoSigmasIsNotDecided) {
   const DesignTunnel design = tests::sample_design(tests::circle_profile(radius_m));
   const DeviationMap map = tests::map_of(design, [](double s, const ProfilePoint& at) {

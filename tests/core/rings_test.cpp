@@ -148,6 +148,17 @@ TEST(Rings, OfFivePointsTheOddOneIsNamed) {
   const RingsResult result = fitted(points, axis);
   ASSERT_FALSE(result.findings.empty());
   EXPECT_EQ(result.findings[0].words.rfind("point 4 lies 80 mm off", 0), 0U) << result.findings[0].words;
+  for (const double blunder_m : {0.04, 0.05, 0.1, 0.3}) {  // with noise: never a good point instead
+    auto noisy = ring_at(axis, 1042.0, {0.0, 0.0}, 5, [](double) { return 3.0; });
+    const Random random(3, 1);
+    std::uint64_t n = 0;
+    for (RingPoint& point : noisy)
+      for (int k = 0; k < 3; ++k) point.place.position(k) += 0.0005 * random.normal(n++);
+    noisy[1].place.position += blunder_m * (noisy[1].place.position - middle).normalized();
+    const RingsResult named = fitted(noisy, axis);
+    ASSERT_FALSE(named.findings.empty()) << blunder_m;
+    EXPECT_EQ(named.findings[0].words.rfind("point 2 lies ", 0), 0U) << named.findings[0].words;
+  }
 }
 
 TEST(Rings, WhatIsDoubtfulIsNamed) {
