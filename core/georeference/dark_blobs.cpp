@@ -1,0 +1,211 @@
+#include "core/georeference/dark_blobs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+namespace adit {
+namespace {
+
+/// Sums of a blob over whole pixels.
+struct Sums {
+  std::int64_t n = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
+  bool at_rim = false;
+
+  /// The pixels first .. last - 1 of a row.
+  void add_run(std::int64_t first, std::int64_t last, std::int64_t row) {
+    const auto sum = [](std::int64_t k) { return k * (k - 1) / 2; };                         // 0 + ... + k - 1
+    const auto squares = [](std::int64_t k) { return (k - 1) * k * (2 * k - 1) / 6; };
+    const std::int64_t count = last - first, along = sum(last) - sum(first);
+    n += count;
+    u += along;
+    v += count * row;
+    uu += squares(last) - squares(first);
+    uv += along * row;
+    vv += count * row * row;
+  }
+  Sums& operator+=(const Sums& other) {
+    n += other.n;
+    u += other.u;
+    v += other.v;
+    uu += other.uu;
+    uv += other.uv;
+    vv += other.vv;
+    at_rim = at_rim || other.at_rim;
+    return *this;
+  }
+};
+
+DarkBlob blob_of(const Sums& sums) {
+  const auto n = static_cast<double>(sums.n);
+  DarkBlob blob;
+  blob.area_px2 = n;
+  blob.center = {static_cast<double>(sums.u) / n, static_cast<double>(sums.v) / n};
+  const auto moment = [&](std::int64_t sum, double a, double b) { return static_cast<double>(sum) / n - a * b; };
+  const double uv = moment(sums.uv, blob.center.x(), blob.center.y());
+  // A pixel is a square of its own: 1/12 more.
+  blob.covariance_px2 << moment(sums.uu, blob.center.x(), blob.center.x()) + 1.0 / 12.0, uv, uv,
+      moment(sums.vv, blob.center.y(), blob.center.y()) + 1.0 / 12.0;
+  return blob;
+}
+
+/// Runs of dark pixels, put together from row to row.
+class Labels {
+ public:
+  void begin_row(int rows_done) {
+    above_.swap(present_);
+    present_.clear();
+    row_ = rows_done;
+    next_above_ = 0;
+  }
+
+  void add_run(int first, int last, bool at_rim) {
+    Sums sums;
+    sums.add_run(first, last, row_);
+    sums.at_rim = at_rim;
+    int label = -1;
+    while (next_above_ < above_.size() && above_[next_above_].last <= first) ++next_above_;
+    for (std::size_t i = next_above_; i < above_.size() && above_[i].first < last; ++i) {
+      const int other = root(above_[i].label);
+      if (label < 0) label = other;
+      if (other != label) {
+        blobs_[static_cast<std::size_t>(label)] += blobs_[static_cast<std::size_t>(other)];
+        parent_[static_cast<std::size_t>(other)] = label;
+      }
+    }
+    if (label < 0) {
+      label = static_cast<int>(blobs_.size());
+      blobs_.push_back({});
+      parent_.push_back(label);
+    }
+    blobs_[static_cast<std::size_t>(label)] += sums;
+    present_.push_back({first, last, label});
+  }
+
+  template <typename Visit>
+  void for_each(const Visit& visit) const {
+    for (std::size_t i = 0; i < blobs_.size(); ++i)
+      if (parent_[i] == static_cast<int>(i)) visit(blobs_[i]);
+  }
+
+ private:
+  struct Run {
+    int first, last, label;
+  };
+  int root(int label) {
+    while (parent_[static_cast<std::size_t>(label)] != label) {
+      int& parent = parent_[static_cast<std::size_t>(label)];
+      parent = parent_[static_cast<std::size_t>(parent)];
+      label = parent;
+    }
+    return label;
+  }
+
+  std::vector<Run> above_, present_;
+  std::vector<Sums> blobs_;
+  std::vector<int> parent_;
+  std::size_t next_above_ = 0;
+  int row_ = 0;
+};
+
+/// Sums over a square window that moves down: one sum a column, the rows of the window.
+class WindowSums {
+ public:
+  WindowSums(const GreyPicture& picture, int half_px)
+      : picture_(picture), half_px_(half_px), columns_(static_cast<std::size_t>(picture.width), 0) {
+    for (int v = 0; v < std::min(half_px, picture.height); ++v) change(v, 1);
+  }
+
+  /// Goes to row v (in order from 0): thresholds[u] is the mean about (u, v).
+  void means_of_row(int v, std::vector<float>& means) {
+    if (v + half_px_ < picture_.height) change(v + half_px_, 1);
+    if (v - half_px_ - 1 >= 0) change(v - half_px_ - 1, -1);
+    const int rows = std::min(v + half_px_, picture_.height - 1) - std::max(v - half_px_, 0) + 1;
+    const int width = picture_.width;
+    int sum = 0;
+    for (int u = 0; u < std::min(half_px_, width); ++u) sum += columns_[static_cast<std::size_t>(u)];
+    for (int u = 0; u < width; ++u) {
+      if (u + half_px_ < width) sum += columns_[static_cast<std::size_t>(u + half_px_)];
+      if (u - half_px_ - 1 >= 0) sum -= columns_[static_cast<std::size_t>(u - half_px_ - 1)];
+      const int across = std::min(u + half_px_, width - 1) - std::max(u - half_px_, 0) + 1;
+      means[static_cast<std::size_t>(u)] = static_cast<float>(sum) / static_cast<float>(rows * across);
+    }
+  }
+
+ private:
+  void change(int row, int sign) {
+    const std::uint8_t* pixels = picture_.pixels.data() + picture_.index(0, row);
+    for (std::size_t u = 0; u < columns_.size(); ++u) columns_[u] += sign * static_cast<int>(pixels[u]);
+  }
+
+  const GreyPicture& picture_;
+  int half_px_;
+  std::vector<int> columns_;
+};
+
+}  // namespace
+
+GreyPicture half_size(const GreyPicture& picture) {
+  GreyPicture half(picture.width / 2, picture.height / 2);
+  for (int v = 0; v < half.height; ++v) {
+    const std::uint8_t* row = picture.pixels.data() + picture.index(0, 2 * v);
+    const std::uint8_t* next = row + picture.width;
+    std::uint8_t* out = half.pixels.data() + half.index(0, v);
+    for (int u = 0; u < half.width; ++u)
+      out[u] = static_cast<std::uint8_t>((row[2 * u] + row[2 * u + 1] + next[2 * u] + next[2 * u + 1] + 2) / 4);
+  }
+  return half;
+}
+
+double noise_of(const GreyPicture& picture) {
+  constexpr int every = 5;
+  std::array<std::size_t, 256> counts{};
+  std::size_t n = 0;
+  for (int v = 0; v < picture.height; v += every)
+    for (int u = 0; u + 1 < picture.width; u += every, ++n)
+      ++counts[static_cast<std::size_t>(std::abs(picture.at(u, v) - picture.at(u + 1, v)))];
+  // Whole grey levels: the median between them, of values spread evenly over each.
+  std::size_t below = 0;
+  for (std::size_t level = 0; level < counts.size(); ++level) {
+    if (2 * (below + counts[level]) >= n && counts[level] > 0) {
+      const double share = (0.5 * static_cast<double>(n) - static_cast<double>(below)) / static_cast<double>(counts[level]);
+      const double median = level == 0 ? 0.5 * share : static_cast<double>(level) - 0.5 + share;
+      return median / (0.6745 * std::sqrt(2.0));
+    }
+    below += counts[level];
+  }
+  return 0.0;
+}
+
+std::vector<DarkBlob> dark_blobs(const GreyPicture& picture, const DarkBlobOptions& options) {
+  std::vector<DarkBlob> found;
+  if (picture.width < 8 || picture.height < 8) return found;
+  WindowSums window(picture, options.window_px / 2);
+  std::vector<float> means(static_cast<std::size_t>(picture.width));
+  Labels labels;
+  const auto contrast = static_cast<float>(options.least_contrast);
+  for (int v = 0; v < picture.height; ++v) {
+    window.means_of_row(v, means);
+    labels.begin_row(v);
+    const std::uint8_t* row = picture.pixels.data() + picture.index(0, v);
+    const auto dark = [&](int u) { return static_cast<float>(row[u]) < means[static_cast<std::size_t>(u)] - contrast; };
+    for (int u = 0; u < picture.width;) {
+      if (!dark(u)) {
+        ++u;
+        continue;
+      }
+      const int first = u;
+      while (u < picture.width && dark(u)) ++u;
+      labels.add_run(first, u, first == 0 || u == picture.width || v == 0 || v == picture.height - 1);
+    }
+  }
+  labels.for_each([&](const Sums& sums) {
+    const auto area = static_cast<double>(sums.n);
+    if (!sums.at_rim && area >= options.least_area_px2 && area <= options.most_area_px2) found.push_back(blob_of(sums));
+  });
+  return found;
+}
+
+}  // namespace adit

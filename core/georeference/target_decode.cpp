@@ -1,0 +1,127 @@
+#include "core/georeference/target_decode.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/georeference/target_model.h"
+
+namespace adit {
+namespace {
+
+using coded_pattern::segments;
+
+constexpr int unknowns = segments + 3;  // and the paper's brightness: a plane
+constexpr double from_radius = 0.46;    // white ring
+constexpr double to_radius = 1.12;      // paper around
+constexpr double most_places_across = 26.0;
+
+struct Place {
+  Eigen::Matrix<double, unknowns, 1> row;  ///< d grey / d unknowns
+  double grey;
+};
+
+std::optional<std::vector<Place>> places_of(const GreyPicture& picture, const TargetPlace& place, double blur_px,
+                                            double black) {
+  const TargetBlur blur(blur_px, place.shape);
+  const double radius_px = Eigen::JacobiSVD<Eigen::Matrix2d>(place.shape).singularValues()(0);
+  std::vector<Place> places;
+  for (const PatternPlace& pattern : pattern_grid(from_radius, to_radius, radius_px, most_places_across)) {
+    const Eigen::Vector2d pixel = place.pixel(pattern.at);
+    if (!picture.holds(pixel.x(), pixel.y())) return std::nullopt;
+    const TargetDarkness darkness = darkness_at(pattern, blur);
+    Place one;
+    for (int k = 0; k < segments; ++k) one.row(k) = -black * darkness.segments[static_cast<std::size_t>(k)];
+    one.row.tail<3>() << 1.0, pattern.at.x(), pattern.at.y();
+    one.grey = picture.between(pixel.x(), pixel.y()) + black * darkness.disc;
+    places.push_back(one);
+  }
+  return places;
+}
+
+}  // namespace
+
+std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, const TargetPlace& place, double blur_px,
+                                                double black) {
+  const auto places = places_of(picture, place, blur_px, black);
+  if (!places || places->size() < 2 * unknowns) return std::nullopt;
+  constexpr int rounds = 3;
+  double limit = std::numeric_limits<double>::infinity();
+  Eigen::Matrix<double, unknowns, 1> solution = Eigen::Matrix<double, unknowns, 1>::Zero();
+  Eigen::Matrix<double, unknowns, unknowns> covariance;
+  for (int round = 0; round < rounds; ++round) {
+    Eigen::Matrix<double, unknowns, unknowns> normal = Eigen::Matrix<double, unknowns, unknowns>::Identity() * 1e-6;
+    Eigen::Matrix<double, unknowns, 1> right = Eigen::Matrix<double, unknowns, 1>::Zero();
+    double squares = 0.0, weights = 0.0;
+    for (const Place& one : *places) {
+      const double off = one.grey - one.row.dot(solution);
+      const double weight = std::abs(off) > limit ? limit / std::abs(off) : 1.0;
+      normal.selfadjointView<Eigen::Lower>().rankUpdate(one.row, weight);
+      right += weight * one.grey * one.row;
+      squares += weight * off * off;
+      weights += weight;
+    }
+    const Eigen::Matrix<double, unknowns, unknowns> whole = normal.selfadjointView<Eigen::Lower>();
+    covariance = whole.inverse();
+    solution = covariance * right;
+    limit = std::max(3.0, 0.15 * black);
+    if (round > 0) covariance *= squares / std::max(1.0, weights - unknowns);
+  }
+  SegmentDarkness darkness;
+  for (int k = 0; k < segments; ++k) {
+    darkness.value[static_cast<std::size_t>(k)] = solution(k);
+    darkness.sigma[static_cast<std::size_t>(k)] = std::sqrt(std::max(0.0, covariance(k, k)));
+  }
+  return darkness;
+}
+
+std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const std::vector<TargetCode>& codes) {
+  constexpr double most_off = 1.9;          // segments, in sum
+  constexpr double least_clear = 0.22;      // of a segment, from one half
+  constexpr double clear_sigmas = 3.0;
+  constexpr double least_margin = 1.2;      // segments, to the next code of a list
+  const bool any = codes.empty();
+  const auto off = [&](int k, bool black) {
+    return std::min(1.0, std::abs(darkness.value[static_cast<std::size_t>(k)] - (black ? 1.0 : 0.0)));
+  };
+  if (any) {
+    TargetCode code = 0;
+    double sum = 0.0, clearest = 1.0;
+    for (int k = 0; k < segments; ++k) {
+      const double value = darkness.value[static_cast<std::size_t>(k)];
+      const double clear = std::abs(value - 0.5);
+      if (clear < std::max(least_clear, clear_sigmas * darkness.sigma[static_cast<std::size_t>(k)])) return std::nullopt;
+      code = static_cast<TargetCode>(2 * code + (value > 0.5 ? 1 : 0));
+      sum += off(k, value > 0.5);
+      clearest = std::min(clearest, 2.0 * clear);
+    }
+    if (sum > most_off || id_of_code(code) == 0) return std::nullopt;
+    return DecodedTarget{code, clearest};
+  }
+  double best = std::numeric_limits<double>::infinity(), next = best;
+  TargetCode code = 0;
+  for (const TargetCode candidate : codes) {
+    double sum = 0.0;
+    for (int k = 0; k < segments; ++k) sum += off(k, is_black(candidate, k));
+    if (sum < best) {
+      next = best;
+      best = sum;
+      code = candidate;
+    } else {
+      next = std::min(next, sum);
+    }
+  }
+  if (best > most_off || next - best < least_margin) return std::nullopt;
+  return DecodedTarget{code, next - best};
+}
+
+std::optional<DecodedTarget> decode_segments(const GreyPicture& picture, const TargetPlace& place, double blur_px,
+                                             double black, const std::vector<TargetCode>& codes) {
+  const auto darkness = segment_darkness(picture, place, blur_px, black);
+  return darkness ? nearest_code(*darkness, codes) : std::nullopt;
+}
+
+}  // namespace adit
