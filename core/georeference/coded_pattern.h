@@ -26,11 +26,11 @@ inline bool is_black(TargetCode code, int segment) {
 /// True at a black place of a code's pattern: x right, y up over the outer radius.
 bool is_black_at(TargetCode code, double x, double y);
 
-/// Codes that may be printed, by their id less one. Left out: codes with fewer than three black segments, which blur and
-/// glare turn into nothing at all: 1 + 12 + 66 of 4096, so that 4017 are left, as many as the paper keeps. The white quarter
-/// says where a code starts, so that none is another one turned. The order makes low ids the safe ones: taken one by one
-/// as they differ from all before in four segments (ids up to codes_differing_in(4): one misread segment is put right,
-/// two are noticed), then three, two and one.
+/// Codes that may be printed, by their id less one. Left out: codes with fewer than three black segments, which blur
+/// and glare turn into nothing at all: 1 + 12 + 66 of 4096, so that 4017 are left, as many as the paper keeps. The
+/// white quarter says where a code starts, so that none is another one turned. The order makes low ids the safe ones:
+/// taken one by one as they differ from all before in four segments (ids up to codes_differing_in(4): one misread
+/// segment is put right, two are noticed), then three, two and one.
 const std::vector<TargetCode>& target_codes();
 inline constexpr int target_code_count = 4017;
 

@@ -16,7 +16,7 @@ struct Sums {
 
   /// The pixels first .. last - 1 of a row.
   void add_run(std::int64_t first, std::int64_t last, std::int64_t row) {
-    const auto sum = [](std::int64_t k) { return k * (k - 1) / 2; };                         // 0 + ... + k - 1
+    const auto sum = [](std::int64_t k) { return k * (k - 1) / 2; };  // 0 + ... + k - 1
     const auto squares = [](std::int64_t k) { return (k - 1) * k * (2 * k - 1) / 6; };
     const std::int64_t count = last - first, along = sum(last) - sum(first);
     n += count;
@@ -170,7 +170,8 @@ double noise_of(const GreyPicture& picture) {
   std::size_t below = 0;
   for (std::size_t level = 0; level < counts.size(); ++level) {
     if (2 * (below + counts[level]) >= n && counts[level] > 0) {
-      const double share = (0.5 * static_cast<double>(n) - static_cast<double>(below)) / static_cast<double>(counts[level]);
+      const double share =
+          (0.5 * static_cast<double>(n) - static_cast<double>(below)) / static_cast<double>(counts[level]);
       const double median = level == 0 ? 0.5 * share : static_cast<double>(level) - 0.5 + share;
       return median / (0.6745 * std::sqrt(2.0));
     }

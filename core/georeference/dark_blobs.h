@@ -9,7 +9,8 @@
 
 namespace adit {
 
-/// Half the size: each pixel the mean of four. Pixel (u, v) stands at (2 u + 0.5, 2 v + 0.5) of the picture it came from.
+/// Half the size: each pixel the mean of four. Pixel (u, v) stands at (2 u + 0.5, 2 v + 0.5) of the picture it came
+/// from.
 GreyPicture half_size(const GreyPicture& picture);
 
 /// Noise of the pixels [grey levels, one sigma]: from the differences of neighbours, half of which lie nearer.
@@ -23,7 +24,7 @@ struct DarkBlob {
 };
 
 struct DarkBlobOptions {
-  int window_px = 31;          ///< side of the square whose mean decides
+  int window_px = 31;           ///< side of the square whose mean decides
   double least_contrast = 3.0;  ///< grey levels darker than that mean
   double least_area_px2 = 7.0;
   double most_area_px2 = 700.0;

@@ -15,12 +15,14 @@ namespace adit {
 namespace {
 
 constexpr int least_side_px = 32;
-constexpr double least_area_px2 = 28.0, most_area_px2 = 180.0;  // of a disc; a picture of half the size begins where this ends
+constexpr double least_area_px2 = 28.0,
+                 most_area_px2 = 180.0;  // of a disc; a picture of half the size begins where this ends
 
-/// A disc without a quarter fills its moments like this: area over 4 pi sqrt(det covariance) is 0.86. Lines, letters and
-/// crosses fill theirs less.
+/// A disc without a quarter fills its moments like this: area over 4 pi sqrt(det covariance) is 0.86. Lines, letters
+/// and crosses fill theirs less.
 bool may_be_disc(const DarkBlob& blob) {
-  constexpr double least_fill = 0.62, most_fill = 1.12, least_ratio = 0.06;  // of variances: 75 degrees, and the quarter
+  constexpr double least_fill = 0.62, most_fill = 1.12,
+                   least_ratio = 0.06;  // of variances: 75 degrees, and the quarter
   const double det = blob.covariance_px2.determinant();
   if (det <= 0.0) return false;
   const double fill = blob.area_px2 / (4.0 * pi * std::sqrt(det));
@@ -43,27 +45,29 @@ bool lies_in(const std::vector<DetectedTarget>& targets, const Eigen::Vector2d& 
 std::vector<DarkBlob> candidates(const GreyPicture& level, double scale, const std::vector<DetectedTarget>& found) {
   constexpr double least_contrast = 3.0, sigmas = 2.0;
   const double contrast = std::max(least_contrast, sigmas * noise_of(level));
-  std::vector<DarkBlob> blobs =
-      dark_blobs(level, {.least_contrast = contrast, .least_area_px2 = scale == 1.0 ? 7.0 : least_area_px2, .most_area_px2 = most_area_px2});
+  std::vector<DarkBlob> blobs = dark_blobs(level, {.least_contrast = contrast,
+                                                   .least_area_px2 = scale == 1.0 ? 7.0 : least_area_px2,
+                                                   .most_area_px2 = most_area_px2});
   if (scale == 1.0) {
     // Blur fills the white ring of the smallest ones: it shows against a mean of what is nearer.
     const std::size_t first = blobs.size();
-    for (const DarkBlob& small : dark_blobs(level, {.window_px = 11, .least_contrast = contrast, .most_area_px2 = 60.0}))
+    for (const DarkBlob& small :
+         dark_blobs(level, {.window_px = 11, .least_contrast = contrast, .most_area_px2 = 60.0}))
       if (std::none_of(blobs.begin(), blobs.begin() + static_cast<std::ptrdiff_t>(first), [&](const DarkBlob& blob) {
             return (blob.center - small.center).squaredNorm() < 0.5 && blob.area_px2 < 1.3 * small.area_px2;
           }))
         blobs.push_back(small);
   }
-  std::erase_if(blobs, [&](const DarkBlob& blob) {
-    return !may_be_disc(blob) || lies_in(found, enlarged(blob.center, scale));
-  });
+  std::erase_if(
+      blobs, [&](const DarkBlob& blob) { return !may_be_disc(blob) || lies_in(found, enlarged(blob.center, scale)); });
   return blobs;
 }
 
 /// Where targets may be, the likeliest first.
 std::vector<TargetStart> best_first(const GreyPicture& level, const std::vector<DarkBlob>& blobs) {
   std::vector<TargetStart> starts(blobs.size());
-  parallel_for_each_index(blobs.size(), [&](std::size_t i) { starts[i] = target_start(level, blobs[i]); }, 16);
+  parallel_for_each_index(
+      blobs.size(), [&](std::size_t i) { starts[i] = target_start(level, blobs[i]); }, 16);
   std::erase_if(starts, [](const TargetStart& start) { return start.likeness < least_start_likeness; });
   std::stable_sort(starts.begin(), starts.end(),
                    [](const TargetStart& a, const TargetStart& b) { return a.likeness > b.likeness; });
@@ -84,8 +88,8 @@ DetectedTarget target_of(const TargetReading& reading) {
   target.center = reading.place.center;
   target.diameter_px = 2.0 * Eigen::JacobiSVD<Eigen::Matrix2d>(reading.place.shape).singularValues()(0);
   target.covariance_px2 = reading.covariance_px2;
-  target.sigma_px = std::sqrt(
-      std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(reading.covariance_px2).eigenvalues()(1)));
+  target.sigma_px =
+      std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(reading.covariance_px2).eigenvalues()(1)));
   target.reading = reading;
   return target;
 }

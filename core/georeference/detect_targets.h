@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/foundation/progress.h"
-#include "core/georeference/target_fit.h"
 #include "core/geometry/grey_picture.h"
+#include "core/georeference/target_fit.h"
 
 namespace adit {
 
@@ -27,9 +27,10 @@ struct DetectOptions {
 };
 
 /// Every target of the picture, in order of id, then place; a target that is seen twice stands twice. Dark patches are
-/// looked for in the picture and in smaller ones, each half the size of the one before, so that every disc is some pixels
-/// wide in one of them; each is then read (read_target). The same picture gives the same targets on any number of
-/// threads. Throws Error for a picture of fewer than 32 pixels a side.
-std::vector<DetectedTarget> detect_targets(const GreyPicture& picture, const DetectOptions& options, Progress& progress);
+/// looked for in the picture and in smaller ones, each half the size of the one before, so that every disc is some
+/// pixels wide in one of them; each is then read (read_target). The same picture gives the same targets on any number
+/// of threads. Throws Error for a picture of fewer than 32 pixels a side.
+std::vector<DetectedTarget> detect_targets(const GreyPicture& picture, const DetectOptions& options,
+                                           Progress& progress);
 
 }  // namespace adit

@@ -79,10 +79,10 @@ std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, cons
 }
 
 std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const std::vector<TargetCode>& codes) {
-  constexpr double most_off = 1.9;          // segments, in sum
-  constexpr double least_clear = 0.22;      // of a segment, from one half
+  constexpr double most_off = 1.9;      // segments, in sum
+  constexpr double least_clear = 0.22;  // of a segment, from one half
   constexpr double clear_sigmas = 3.0;
-  constexpr double least_margin = 1.2;      // segments, to the next code of a list
+  constexpr double least_margin = 1.2;  // segments, to the next code of a list
   const bool any = codes.empty();
   const auto off = [&](int k, bool black) {
     return std::min(1.0, std::abs(darkness.value[static_cast<std::size_t>(k)] - (black ? 1.0 : 0.0)));
@@ -93,7 +93,8 @@ std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const
     for (int k = 0; k < segments; ++k) {
       const double value = darkness.value[static_cast<std::size_t>(k)];
       const double clear = std::abs(value - 0.5);
-      if (clear < std::max(least_clear, clear_sigmas * darkness.sigma[static_cast<std::size_t>(k)])) return std::nullopt;
+      if (clear < std::max(least_clear, clear_sigmas * darkness.sigma[static_cast<std::size_t>(k)]))
+        return std::nullopt;
       code = static_cast<TargetCode>(2 * code + (value > 0.5 ? 1 : 0));
       sum += off(k, value > 0.5);
       clearest = std::min(clearest, 2.0 * clear);

@@ -14,9 +14,9 @@ struct DecodedTarget {
   double margin = 0.0;  ///< how much farther the next code lies off, in segments
 };
 
-/// How dark each segment is, 0 as the paper and 1 as the disc: least squares on the ring, with the blur of the edges and
-/// the brightness of the paper as a plane; places off by much count less. `black`: grey levels from white to the disc.
-/// Nothing where the ring leaves the picture.
+/// How dark each segment is, 0 as the paper and 1 as the disc: least squares on the ring, with the blur of the edges
+/// and the brightness of the paper as a plane; places off by much count less. `black`: grey levels from white to the
+/// disc. Nothing where the ring leaves the picture.
 struct SegmentDarkness {
   std::array<double, coded_pattern::segments> value{};
   std::array<double, coded_pattern::segments> sigma{};
@@ -24,8 +24,8 @@ struct SegmentDarkness {
 std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, const TargetPlace& place, double blur_px,
                                                 double black);
 
-/// The code that lies nearest to the segments, when it is near and no other one is. `codes`: those that may be; empty: all
-/// of target_codes(), and each segment must then be clear by itself.
+/// The code that lies nearest to the segments, when it is near and no other one is. `codes`: those that may be; empty:
+/// all of target_codes(), and each segment must then be clear by itself.
 std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const std::vector<TargetCode>& codes);
 
 /// Both.

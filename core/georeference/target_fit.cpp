@@ -79,7 +79,6 @@ double likeness_of(const GreyPicture& picture, const TargetPlace& place, const s
   return correlation.value();
 }
 
-
 Eigen::RowVector2d gradient_at(const GreyPicture& picture, const Eigen::Vector2d& pixel) {
   const auto value = [&](double du, double dv) { return picture.between(pixel.x() + du, pixel.y() + dv); };
   return {value(0.5, 0.0) - value(-0.5, 0.0), value(0.0, 0.5) - value(0.0, -0.5)};
@@ -131,7 +130,7 @@ struct FitProblem {
   std::vector<PatternPlace> grid;
   bool with_segments;
   std::array<double, segments> blackness;  ///< of the segments
-  bool few;  ///< tilt, blur and slope stay as they are
+  bool few;                                ///< tilt, blur and slope stay as they are
   Eigen::Vector2d tilt_prior;
   double tilt_sigma;
 };
@@ -146,7 +145,8 @@ double value_of(const Appearance& look, const Eigen::Vector2d& at, double darkne
 }
 
 /// d (grey of the picture - value of the pattern) / d unknowns, but for the blur.
-Unknowns row_of(const Appearance& look, const Eigen::Vector2d& at, const Eigen::RowVector2d& gradient, double darkness) {
+Unknowns row_of(const Appearance& look, const Eigen::Vector2d& at, const Eigen::RowVector2d& gradient,
+                double darkness) {
   const double scale = 1.0 / (1.0 + look.place.tilt.dot(at));
   const double along_tilt = -scale * scale * gradient.dot(look.place.shape * at);
   Unknowns row;
@@ -265,7 +265,8 @@ double likeness_of(const FitProblem& problem, const Appearance& look) {
 /// Disc and white ring alone, without perspective; the better of two blurs to begin with.
 std::optional<Appearance> fit_core(const GreyPicture& picture, const TargetPlace& start) {
   constexpr int steps = 8;
-  FitProblem problem{&picture, pattern_grid(0.0, core_radius, long_radius_px(start.shape), 14.0), false, {}, true, {0.0, 0.0}, 1e-3};
+  FitProblem problem{
+      &picture, pattern_grid(0.0, core_radius, long_radius_px(start.shape), 14.0), false, {}, true, {0.0, 0.0}, 1e-3};
   std::optional<Appearance> best;
   double best_likeness = least_core_likeness;
   for (const double blur_px : {0.7, 1.3}) {
@@ -288,8 +289,8 @@ double outlier_limit(const Appearance& look) {
   return std::max(4.0, 0.15 * look.black);
 }
 
-/// Before the code is known: place and darkness of the segments by turns. The rims of the ring hold the scale, which the
-/// disc of a small target, blurred as it is, leaves open.
+/// Before the code is known: place and darkness of the segments by turns. The rims of the ring hold the scale, which
+/// the disc of a small target, blurred as it is, leaves open.
 bool refine_with_any_segments(FitProblem& problem, Appearance& look, int turns) {
   constexpr int steps = 2;
   FitSums last;
@@ -324,7 +325,12 @@ std::optional<Whole> fit_whole(const GreyPicture& picture, const Appearance& cor
                                double focal_px) {
   constexpr int turns = 2;
   const double radius_px = long_radius_px(core.place.shape);
-  Whole whole{{&picture, pattern_grid(0.0, whole_radius, radius_px, places_across), true, {}, false, tilt,
+  Whole whole{{&picture,
+               pattern_grid(0.0, whole_radius, radius_px, places_across),
+               true,
+               {},
+               false,
+               tilt,
                0.3 * radius_px / focal_px + 1e-3},
               core,
               0.0};
@@ -358,8 +364,8 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
   if (likeness < least_likeness) return std::nullopt;
   const auto decoded = decode_segments(*problem.picture, look.place, look.blur_px, look.black, codes);
   if (!decoded || decoded->code != first->code) return std::nullopt;
-  return TargetReading{decoded->code,   look.place, look.blur_px, likeness,
-                       decoded->margin, center_covariance(problem, look, last)};
+  return TargetReading{decoded->code, look.place,      look.blur_px,
+                       likeness,      decoded->margin, center_covariance(problem, look, last)};
 }
 
 }  // namespace

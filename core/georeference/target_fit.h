@@ -6,15 +6,15 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/grey_picture.h"
 #include "core/georeference/coded_pattern.h"
 #include "core/georeference/dark_blobs.h"
-#include "core/geometry/grey_picture.h"
 
 namespace adit {
 
 /// The plane of a target in a picture: a place (x, y) of the pattern, in outer radii, is seen at
-/// center + shape (x, y) / (1 + tilt . (x, y)). The centre is that of the circle in space, not of the ellipse it is seen
-/// as: perspective sets them apart.
+/// center + shape (x, y) / (1 + tilt . (x, y)). The centre is that of the circle in space, not of the ellipse it is
+/// seen as: perspective sets them apart.
 struct TargetPlace {
   Eigen::Vector2d center = Eigen::Vector2d::Zero();     ///< pixels
   Eigen::Matrix2d shape = Eigen::Matrix2d::Identity();  ///< pixels for one outer radius
@@ -35,8 +35,9 @@ struct TargetReading {
 
 /// What may be read.
 struct TargetFitOptions {
-  std::vector<TargetCode> codes;  ///< that were printed; empty: any of target_codes(), and then not a single doubtful segment
-  double focal_length_px = 0.0;   ///< how strong perspective may be; 0: the longer side of the picture
+  std::vector<TargetCode>
+      codes;  ///< that were printed; empty: any of target_codes(), and then not a single doubtful segment
+  double focal_length_px = 0.0;  ///< how strong perspective may be; 0: the longer side of the picture
 };
 
 /// The target whose centre disc a blob may be.

@@ -78,7 +78,8 @@ TargetDarkness darkness_at(const PatternPlace& place, const TargetBlur& blur, do
   const Eigen::Vector2d& out = place.outwards;
   const Eigen::Vector2d around(-out.y(), out.x());
   const double across = wider * std::sqrt(out.dot(blur.covariance * out));
-  const double in_ring = step((place.radius - coded_pattern::ring_radius) / across) - step((place.radius - 1.0) / across);
+  const double in_ring =
+      step((place.radius - coded_pattern::ring_radius) / across) - step((place.radius - 1.0) / across);
   if (in_ring <= 1e-6) return darkness;
   const double per_segment =
       place.radius * one_segment_rad / (wider * std::sqrt(around.dot(blur.covariance * around)));  // sigmas

@@ -89,7 +89,8 @@ TEST(DetectTargets, PlaceAndIdOfTargetsLargeSmallAndOblique) {
 
 TEST(DetectTargets, TheEllipsesCentreIsNotTheCircles) {
   // Seen from near and obliquely: the middle of the ellipse's box lies pixels beside the circle's centre.
-  const DrawnTarget target = drawn_target(code_of_id(7), {400.0, 300.0}, 380.0, rad_from_deg(60.0), 0.0, 0.5, 1000.0, middle);
+  const DrawnTarget target =
+      drawn_target(code_of_id(7), {400.0, 300.0}, 380.0, rad_from_deg(60.0), 0.0, 0.5, 1000.0, middle);
   double low = 1e9, high = -1e9;
   for (int i = 0; i < 720; ++i) {
     const double a = 2.0 * pi * i / 720.0;
@@ -135,8 +136,9 @@ TEST(DetectTargets, NothingWhereThereIsNone) {
     return found_in(tests::draw_targets(width, height, {}, {}, background)).empty();
   };
   EXPECT_TRUE(empty([](int, int) { return 100.0; }));
-  EXPECT_TRUE(empty([](int u, int v) { return (u / 40 + (v / 20) % 2) % 2 == 0 && u % 40 > 3 && v % 20 > 3 ? 140.0 : 60.0; }))
-      << "bricks";
+  EXPECT_TRUE(empty([](int u, int v) {
+    return (u / 40 + (v / 20) % 2) % 2 == 0 && u % 40 > 3 && v % 20 > 3 ? 140.0 : 60.0;
+  })) << "bricks";
   EXPECT_TRUE(empty([](int u, int v) { return u % 17 < 3 || v % 17 < 3 ? 30.0 : 180.0; })) << "mesh";
   EXPECT_TRUE(empty([](int u, int v) {
     const double r = std::hypot(u % 60 - 30.0, v % 60 - 30.0);

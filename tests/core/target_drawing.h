@@ -8,8 +8,8 @@
 
 #include "core/foundation/angle.h"
 #include "core/foundation/random.h"
-#include "core/georeference/coded_pattern.h"
 #include "core/geometry/grey_picture.h"
+#include "core/georeference/coded_pattern.h"
 
 namespace adit::tests {
 
@@ -69,9 +69,12 @@ GreyPicture draw_targets(int width, int height, const std::vector<DrawnTarget>& 
     const double plane = normal.dot(target.camera_from_target.translation());
     const Eigen::Vector2d center = target.pixel(options.focal_px, middle);
     const double reach = 1.4 * options.focal_px * target.radius_m * coded_pattern::clear_radius /
-                             (target.camera_from_target.translation().z() - target.radius_m * 1.3) + 2.0;
-    for (int v = std::max(0, static_cast<int>(center.y() - reach)); v < std::min(height, static_cast<int>(center.y() + reach)); ++v)
-      for (int u = std::max(0, static_cast<int>(center.x() - reach)); u < std::min(width, static_cast<int>(center.x() + reach)); ++u) {
+                             (target.camera_from_target.translation().z() - target.radius_m * 1.3) +
+                         2.0;
+    for (int v = std::max(0, static_cast<int>(center.y() - reach));
+         v < std::min(height, static_cast<int>(center.y() + reach)); ++v)
+      for (int u = std::max(0, static_cast<int>(center.x() - reach));
+           u < std::min(width, static_cast<int>(center.x() + reach)); ++u) {
         double sum = 0.0;
         for (int j = 0; j < samples; ++j)
           for (int i = 0; i < samples; ++i) {
