@@ -33,6 +33,15 @@ target_link_libraries(adit_pcl INTERFACE ${PCL_LIBRARIES})
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel RenderingCore RenderingOpenGL2 RenderingFreeType
                                          FiltersCore FiltersSources)
 
+# OpenCV: the parts that are used, without its own package file, which asks for all of it.
+add_library(adit_opencv INTERFACE)
+find_path(OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4 REQUIRED)
+target_include_directories(adit_opencv SYSTEM INTERFACE ${OPENCV_INCLUDE_DIR})
+foreach(module core imgproc imgcodecs features2d calib3d)
+  find_library(OPENCV_${module} opencv_${module} REQUIRED)
+  target_link_libraries(adit_opencv INTERFACE ${OPENCV_${module}})
+endforeach()
+
 # E57 and LAZ: packages of the system, or what packaging/scan_libraries has put into its prefix. The build works without.
 if(DEFINED ENV{ADIT_PREFIX})
   set(adit_prefix $ENV{ADIT_PREFIX})

@@ -26,6 +26,7 @@ HEAVY = {
     r"^CGAL/": r"_cgal\.(cpp|h)$",
     r"^ceres/": r"_ceres\.cpp$",
     r"^polyclipping/": r"_clipper\.cpp$",
+    r"^opencv2/": r"_opencv\.cpp$",
     r"^OpenMesh/": r"^core/surface/",
     r"^vtk": r"^render/",
     r"^(GL/)?osmesa": r"^render/gl_context_osmesa\.cpp$",

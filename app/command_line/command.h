@@ -42,5 +42,6 @@ Action declare_run(CLI::App& command, const std::string& last_step);
 Action declare_info(CLI::App& command);
 Action declare_convert(CLI::App& command);
 Action declare_axis(CLI::App& command);
+Action declare_target(CLI::App& command);
 
 }  // namespace adit::app

@@ -70,6 +70,7 @@ std::vector<Command> commands() {
       {"info", "what a scan, alignment, profile, control file or job holds", declare_info},
       {"convert", "a scan into another format", declare_convert},
       {"axis", "coordinate list of an alignment, or chainage and offset of points", declare_axis},
+      {"target", "coded targets: print, detect, locate, calibrate", declare_target},
   };
 }
 

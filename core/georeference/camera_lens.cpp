@@ -30,26 +30,28 @@ Eigen::Matrix2d distortion_derivative(const CameraLens& lens, const Eigen::Vecto
 }  // namespace
 
 void check_lens(const CameraLens& lens) {
-  for (const double number : {lens.fx, lens.fy, lens.cx, lens.cy, lens.k1, lens.k2, lens.p1, lens.p2, lens.k3, lens.k4,
-                              lens.k5, lens.k6})
+  for (const double number :
+       {lens.fx, lens.fy, lens.cx, lens.cy, lens.k1, lens.k2, lens.p1, lens.p2, lens.k3, lens.k4, lens.k5, lens.k6})
     if (!std::isfinite(number)) throw Error("a number of the camera is not finite", {}, "calibrate it again");
   if (lens.width < 16 || lens.height < 16 || lens.width > 100000 || lens.height > 100000)
-    throw Error("the camera's picture is " + std::to_string(lens.width) + " x " + std::to_string(lens.height) + " pixels",
-                {}, "state image_width and image_height");
+    throw Error(
+        "the camera's picture is " + std::to_string(lens.width) + " x " + std::to_string(lens.height) + " pixels", {},
+        "state image_width and image_height");
   const double longer = std::max(lens.width, lens.height);
   if (!(lens.fx > 0.05 * longer && lens.fx < 100.0 * longer && lens.fy > 0.05 * longer && lens.fy < 100.0 * longer))
-    throw Error("focal lengths of " + short_number(lens.fx) + " and " + short_number(lens.fy) + " pixels for a picture of " +
-                    std::to_string(lens.width) + " x " + std::to_string(lens.height),
+    throw Error("focal lengths of " + short_number(lens.fx) + " and " + short_number(lens.fy) +
+                    " pixels for a picture of " + std::to_string(lens.width) + " x " + std::to_string(lens.height),
                 {}, "the camera matrix counts in pixels of the same picture size");
   if (!(lens.cx > 0.0 && lens.cx < lens.width && lens.cy > 0.0 && lens.cy < lens.height))
-    throw Error("the principal point " + short_number(lens.cx) + ", " + short_number(lens.cy) + " lies outside the picture",
-                {}, "the camera matrix counts in pixels of the same picture size");
+    throw Error(
+        "the principal point " + short_number(lens.cx) + ", " + short_number(lens.cy) + " lies outside the picture", {},
+        "the camera matrix counts in pixels of the same picture size");
 }
 
 Eigen::Vector2d distorted(const CameraLens& lens, const Eigen::Vector2d& place) {
   const double x = place.x(), y = place.y(), r2 = place.squaredNorm();
-  const double radial = (1.0 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3))) /
-                        (1.0 + r2 * (lens.k4 + r2 * (lens.k5 + r2 * lens.k6)));
+  const double radial =
+      (1.0 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3))) / (1.0 + r2 * (lens.k4 + r2 * (lens.k5 + r2 * lens.k6)));
   return {x * radial + 2.0 * lens.p1 * x * y + lens.p2 * (r2 + 2.0 * x * x),
           y * radial + lens.p1 * (r2 + 2.0 * y * y) + 2.0 * lens.p2 * x * y};
 }

@@ -253,12 +253,14 @@ void name_left_out(const Scene& scene, const Adjusted& adjusted, const std::vect
 /// What makes a pose doubtful.
 void judge(const Scene& scene, const Adjusted& adjusted, const Indices& used, CameraPose& result) {
   if (used.size() == least_targets)
-    result.findings.push_back({Severity::warning, "pose",
-                               "four targets give a pose that hardly anything checks: a wrong one among them may not show",
-                               "put up more, around the camera"});
+    result.findings.push_back(
+        {Severity::warning, "pose",
+         "four targets give a pose that hardly anything checks: a wrong one among them may not show",
+         "put up more, around the camera"});
   if (result.sigma_factor > 2.0) {
     char words[160];
-    std::snprintf(words, sizeof words, "the targets fit %.1f times worse than their sigmas say; the pose's sigmas are as much greater",
+    std::snprintf(words, sizeof words,
+                  "the targets fit %.1f times worse than their sigmas say; the pose's sigmas are as much greater",
                   result.sigma_factor);
     result.findings.push_back({Severity::warning, "pose", words, "calibrate the camera, and check the database"});
   }
@@ -288,8 +290,9 @@ CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight
   const Scene scene = scene_of(lens, sights, options);
   Consensus consensus = consensus_of(scene);
   if (consensus.agreeing.size() < least_targets)
-    throw Error("no pose fits to four of the " + std::to_string(sights.size()) + " targets", {},
-                "check their coordinates, that they do not hang on one line, and that the camera file is of this camera");
+    throw Error(
+        "no pose fits to four of the " + std::to_string(sights.size()) + " targets", {},
+        "check their coordinates, that they do not hang on one line, and that the camera file is of this camera");
   Indices used = consensus.agreeing;
   std::optional<Adjusted> adjusted = adjust(scene, consensus.pose, used);
   while (adjusted) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/foundation/finding.h"
-#include "core/georeference/camera_lens.h"
 #include "core/geometry/pose.h"
+#include "core/georeference/camera_lens.h"
 
 namespace adit {
 
@@ -49,8 +49,8 @@ struct CameraPose {
   Pose site_from_camera = Pose::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< position in the site [m], then small turns about the site's axes [rad]
   double rms_px = 0.0;                     ///< of those used
-  double sigma_factor = 1.0;               ///< of the residuals over what their sigmas say; sigmas are not made smaller by it
-  bool flat = false;                       ///< the targets lie in one plane
+  double sigma_factor = 1.0;  ///< of the residuals over what their sigmas say; sigmas are not made smaller by it
+  bool flat = false;          ///< the targets lie in one plane
   PositSummary posit;
   std::vector<LandmarkResidual> landmarks;
   Findings findings;
@@ -59,9 +59,9 @@ struct CameraPose {
 };
 
 /// Consensus: poses of subsets of four (all of them, or 400 drawn ones) by POSIT; the one that most targets fit, then a
-/// least squares adjustment of the pixels, weighed by the sigmas of target, landmark and lens. What lies off by more than
-/// four of its sigmas is left out, one at a time, and named. Throws Error for fewer than four targets, targets on one
-/// line, or where no pose fits to four of them.
+/// least squares adjustment of the pixels, weighed by the sigmas of target, landmark and lens. What lies off by more
+/// than four of its sigmas is left out, one at a time, and named. Throws Error for fewer than four targets, targets on
+/// one line, or where no pose fits to four of them.
 CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight>& sights,
                          const CameraPoseOptions& options);
 

@@ -49,7 +49,8 @@ std::optional<Pose> pose_of(const Eigen::Vector3d& x_axis, const Eigen::Vector3d
   return pose.linear().allFinite() ? std::optional(pose) : std::nullopt;
 }
 
-double rms_of(const Pose& pose, const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector2d>& places) {
+double rms_of(const Pose& pose, const std::vector<Eigen::Vector3d>& points,
+              const std::vector<Eigen::Vector2d>& places) {
   double sum = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3d at = pose * points[i];
@@ -61,7 +62,8 @@ double rms_of(const Pose& pose, const std::vector<Eigen::Vector3d>& points, cons
 
 /// Both vectors for points in a plane: what the picture says in the plane, and along its normal what makes the axes
 /// equally long and square to one another.
-std::array<std::pair<Eigen::Vector3d, Eigen::Vector3d>, 2> with_normal(const Eigen::Vector3d& x0, const Eigen::Vector3d& y0,
+std::array<std::pair<Eigen::Vector3d, Eigen::Vector3d>, 2> with_normal(const Eigen::Vector3d& x0,
+                                                                       const Eigen::Vector3d& y0,
                                                                        const Eigen::Vector3d& normal) {
   const std::complex<double> root =
       std::sqrt(std::complex<double>(y0.squaredNorm() - x0.squaredNorm(), -2.0 * x0.dot(y0)));

@@ -40,9 +40,9 @@ struct Scene {
     std::uint64_t k = 0;
     Eigen::Matrix3d looking_north;  // camera x east, y down, z north
     looking_north << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0;
-    site_from_camera.linear() =
-        rotation_from_vector({random.uniform(k, -0.1, 0.1), random.uniform(k + 1, -0.1, 0.1), random.uniform(k + 2, -0.2, 0.2)}) *
-        looking_north;
+    site_from_camera.linear() = rotation_from_vector({random.uniform(k, -0.1, 0.1), random.uniform(k + 1, -0.1, 0.1),
+                                                      random.uniform(k + 2, -0.2, 0.2)}) *
+                                looking_north;
     k += 3;
     site_from_camera.translation() = origin + Eigen::Vector3d(random.uniform(k++, -1.0, 1.0), 0.0, 1.6);
     while (static_cast<int>(sights.size()) < count) {
@@ -67,7 +67,8 @@ struct Scene {
 
 TEST(CameraLens, ThereAndBackAndItsDerivative) {
   const CameraLens lens = lens_of();
-  for (const Eigen::Vector3d& point : {Eigen::Vector3d(0.1, -0.2, 1.0), Eigen::Vector3d(3.0, 1.5, 5.0), Eigen::Vector3d(-2.0, 1.1, 4.0)}) {
+  for (const Eigen::Vector3d& point :
+       {Eigen::Vector3d(0.1, -0.2, 1.0), Eigen::Vector3d(3.0, 1.5, 5.0), Eigen::Vector3d(-2.0, 1.1, 4.0)}) {
     const Eigen::Vector2d pixel = pixel_of(lens, point);
     const auto place = place_of(lens, pixel);
     ASSERT_TRUE(place);
@@ -180,7 +181,8 @@ TEST(CameraPose, TooLittleIsRefusedAndDoubtIsSaid) {
   // Small, far and flat: its mirror pose fits as well.
   Scene flat(6, 0.3, 2, true);
   for (LandmarkSight& sight : flat.sights) {
-    sight.site = origin + Eigen::Vector3d(0.02 * (sight.site.x() - origin.x()), 9.0, 1.6 + 0.02 * (sight.site.z() - origin.z()));
+    sight.site =
+        origin + Eigen::Vector3d(0.02 * (sight.site.x() - origin.x()), 9.0, 1.6 + 0.02 * (sight.site.z() - origin.z()));
     sight.pixel = pixel_of(flat.lens, flat.site_from_camera.inverse() * sight.site) + Eigen::Vector2d(0.2, -0.1);
     sight.sigma_px = 0.3;
   }

@@ -1,0 +1,110 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/calib3d.hpp>
+
+#include "core/foundation/angle.h"
+#include "core/foundation/error.h"
+#include "core/georeference/calibrate_camera.h"
+
+namespace adit {
+namespace {
+
+constexpr std::size_t least_targets = 6, least_pictures = 4;
+
+void judge(CameraCalibration& calibration, int width, int height, const std::vector<BoardPicture>& used) {
+  constexpr double poor_rms_px = 0.5, poor_focal = 0.005, least_filled = 0.5;
+  char words[200];
+  if (calibration.rms_px > poor_rms_px) {
+    std::snprintf(words, sizeof words, "the pictures fit to %.2f pixels (rms) only", calibration.rms_px);
+    calibration.findings.push_back({Severity::warning, "calibration", words,
+                                    "print the board on a stiff plane, measure it, and keep focus and zoom as they are"});
+  }
+  if (calibration.sigma_fx > poor_focal * calibration.lens.fx) {
+    std::snprintf(words, sizeof words, "the focal length is known to %.1f %% only (one sigma)",
+                  100.0 * calibration.sigma_fx / calibration.lens.fx);
+    calibration.findings.push_back({Severity::warning, "calibration", words, "take more pictures, the board tilted to all sides"});
+  }
+  Eigen::AlignedBox2d box;
+  for (const BoardPicture& picture : used)
+    for (const BoardSight& sight : picture.sights) box.extend(sight.pixel);
+  const double filled = box.sizes().x() * box.sizes().y() / (static_cast<double>(width) * height);
+  if (filled < least_filled) {
+    std::snprintf(words, sizeof words, "the board was seen in %.0f %% of the picture only: the lens's rim is a guess", 100.0 * filled);
+    calibration.findings.push_back({Severity::warning, "calibration", words, "move the board into every corner"});
+  }
+}
+
+}  // namespace
+
+CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, int width, int height) {
+  CameraCalibration calibration;
+  std::vector<BoardPicture> used;
+  for (const BoardPicture& picture : pictures) {
+    if (picture.sights.size() >= least_targets) {
+      used.push_back(picture);
+      continue;
+    }
+    calibration.findings.push_back({Severity::warning, picture.name,
+                                    "shows " + std::to_string(picture.sights.size()) + " targets of the board and is not used",
+                                    "six are needed"});
+  }
+  if (used.size() < least_pictures)
+    throw Error("only " + std::to_string(used.size()) + " pictures show six targets of the board or more", {},
+                "take at least four, better fifteen, with the board tilted to all sides");
+  std::vector<std::vector<cv::Point3f>> board;
+  std::vector<std::vector<cv::Point2f>> seen;
+  for (const BoardPicture& picture : used) {
+    board.emplace_back();
+    seen.emplace_back();
+    for (const BoardSight& sight : picture.sights) {
+      const Eigen::Vector3f at = sight.board.cast<float>();
+      const Eigen::Vector2f pixel = sight.pixel.cast<float>();
+      board.back().emplace_back(at.x(), at.y(), at.z());
+      seen.back().emplace_back(pixel.x(), pixel.y());
+    }
+  }
+  cv::Mat matrix, bends, sigmas, board_sigmas, per_picture;
+  std::vector<cv::Mat> turns, shifts;
+  try {
+    calibration.rms_px = cv::calibrateCamera(board, seen, cv::Size(width, height), matrix, bends, turns, shifts, sigmas,
+                                             board_sigmas, per_picture);
+  } catch (const cv::Exception&) {
+    throw Error("no camera fits to these pictures", {}, "check that the board's coordinates are those of the printed one");
+  }
+  double most_tilt = 0.0;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    cv::Mat rotation;
+    cv::Rodrigues(turns[i], rotation);
+    const double tilt = std::acos(std::min(1.0, std::abs(rotation.at<double>(2, 2))));
+    most_tilt = std::max(most_tilt, tilt);
+    calibration.pictures.push_back(
+        {used[i].name, per_picture.at<double>(static_cast<int>(i)), used[i].sights.size(), tilt});
+  }
+  constexpr double least_tilt_deg = 10.0;
+  if (most_tilt < rad_from_deg(least_tilt_deg))
+    throw Error("the board was held square to the camera in all pictures: focal length and distance cannot be told apart", {},
+                "tilt it by 30 degrees and more, to all sides");
+  CameraLens& lens = calibration.lens;
+  lens.width = width;
+  lens.height = height;
+  lens.fx = matrix.at<double>(0, 0);
+  lens.fy = matrix.at<double>(1, 1);
+  lens.cx = matrix.at<double>(0, 2);
+  lens.cy = matrix.at<double>(1, 2);
+  lens.k1 = bends.at<double>(0);
+  lens.k2 = bends.at<double>(1);
+  lens.p1 = bends.at<double>(2);
+  lens.p2 = bends.at<double>(3);
+  lens.k3 = bends.at<double>(4);
+  check_lens(lens);
+  calibration.sigma_fx = sigmas.at<double>(0);
+  calibration.sigma_fy = sigmas.at<double>(1);
+  calibration.sigma_cx = sigmas.at<double>(2);
+  calibration.sigma_cy = sigmas.at<double>(3);
+  judge(calibration, width, height, used);
+  return calibration;
+}
+
+}  // namespace adit

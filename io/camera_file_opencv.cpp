@@ -1,0 +1,102 @@
+#include <array>
+#include <charconv>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <span>
+
+#include "core/foundation/error.h"
+#include "io/bytes.h"
+#include "io/camera_file.h"
+
+namespace adit::io {
+namespace {
+
+[[noreturn]] void fail(const std::string& what, const std::string& file) {
+  throw Error(what, file, "write the file with adit target calibrate, or with OpenCV");
+}
+
+int whole_number(const cv::FileStorage& storage, const char* key, const std::string& file) {
+  const cv::FileNode node = storage[key];
+  if (!node.isInt()) fail(std::string("the key ") + key + " is missing, or no whole number", file);
+  return static_cast<int>(node);
+}
+
+cv::Mat numbers(const cv::FileStorage& storage, const char* key, const std::string& file) {
+  cv::Mat matrix;
+  storage[key] >> matrix;
+  if (matrix.empty() || matrix.channels() != 1) fail(std::string("the key ") + key + " is missing, or no matrix", file);
+  matrix.convertTo(matrix, CV_64F);
+  return matrix;
+}
+
+CameraLens lens_of(const cv::FileStorage& storage, const std::string& file) {
+  CameraLens lens;
+  lens.width = whole_number(storage, "image_width", file);
+  lens.height = whole_number(storage, "image_height", file);
+  const cv::Mat matrix = numbers(storage, "camera_matrix", file);
+  if (matrix.rows != 3 || matrix.cols != 3) fail("camera_matrix is not 3 x 3", file);
+  lens.fx = matrix.at<double>(0, 0);
+  lens.fy = matrix.at<double>(1, 1);
+  lens.cx = matrix.at<double>(0, 2);
+  lens.cy = matrix.at<double>(1, 2);
+  if (matrix.at<double>(0, 1) != 0.0) fail("camera_matrix has a skew, which Adit does not know", file);
+  const cv::Mat bends = numbers(storage, "distortion_coefficients", file).reshape(1, 1);
+  if (bends.cols != 4 && bends.cols != 5 && bends.cols != 8) {
+    for (int k = 8; k < bends.cols; ++k)
+      if (bends.at<double>(0, k) != 0.0)
+        fail("distortion_coefficients holds thin prism or tilt coefficients, which Adit does not know", file);
+    if (bends.cols < 8) fail("distortion_coefficients holds " + std::to_string(bends.cols) + " numbers, not 4, 5 or 8", file);
+  }
+  const std::array<double*, 8> places{&lens.k1, &lens.k2, &lens.p1, &lens.p2, &lens.k3, &lens.k4, &lens.k5, &lens.k6};
+  for (int k = 0; k < std::min(8, bends.cols); ++k) *places[static_cast<std::size_t>(k)] = bends.at<double>(0, k);
+  try {
+    check_lens(lens);
+  } catch (const Error& error) {
+    throw Error(error.what_is_wrong(), file, error.mend());
+  }
+  return lens;
+}
+
+std::string digits(double value) {
+  std::array<char, 40> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+}  // namespace
+
+CameraLens read_camera(const std::filesystem::path& path) {
+  constexpr std::uint64_t largest_file = std::uint64_t{1} << 20;
+  const InputFile file(path);
+  if (file.size() == 0 || file.size() > largest_file)
+    fail("this is no camera file: it has " + std::to_string(file.size()) + " bytes", file.name());
+  const std::string text = file.beginning(static_cast<std::size_t>(file.size()));
+  if (text.rfind("%YAML", 0) != 0) fail("this is no camera file: it does not begin with %YAML", file.name());
+  try {
+    const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    if (!storage.isOpened()) fail("the file is damaged", file.name());
+    return lens_of(storage, file.name());
+  } catch (const cv::Exception&) {
+    fail("the file is damaged", file.name());
+  }
+}
+
+std::string camera_text(const CameraLens& lens, const std::string& note) {
+  const std::array<double, 9> matrix{lens.fx, 0.0, lens.cx, 0.0, lens.fy, lens.cy, 0.0, 0.0, 1.0};
+  const std::array<double, 8> bends{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3, lens.k4, lens.k5, lens.k6};
+  const bool rational = lens.k4 != 0.0 || lens.k5 != 0.0 || lens.k6 != 0.0;
+  const auto add = [](std::string& text, const char* key, std::span<const double> values, int rows) {
+    text += std::string(key) + ": !!opencv-matrix\n   rows: " + std::to_string(rows) +
+            "\n   cols: " + std::to_string(values.size() / static_cast<std::size_t>(rows)) + "\n   dt: d\n   data: [ ";
+    for (std::size_t i = 0; i < values.size(); ++i) text += (i == 0 ? "" : ", ") + digits(values[i]);
+    text += " ]\n";
+  };
+  std::string text = "%YAML:1.0\n---\n";
+  if (!note.empty()) text += "# " + note + "\n";
+  text += "image_width: " + std::to_string(lens.width) + "\nimage_height: " + std::to_string(lens.height) + "\n";
+  add(text, "camera_matrix", matrix, 3);
+  add(text, "distortion_coefficients", std::span(bends).first(rational ? 8 : 5), 1);
+  return text;
+}
+
+}  // namespace adit::io
