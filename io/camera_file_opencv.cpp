@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <span>
@@ -46,7 +46,8 @@ CameraLens lens_of(const cv::FileStorage& storage, const std::string& file) {
     for (int k = 8; k < bends.cols; ++k)
       if (bends.at<double>(0, k) != 0.0)
         fail("distortion_coefficients holds thin prism or tilt coefficients, which Adit does not know", file);
-    if (bends.cols < 8) fail("distortion_coefficients holds " + std::to_string(bends.cols) + " numbers, not 4, 5 or 8", file);
+    if (bends.cols < 8)
+      fail("distortion_coefficients holds " + std::to_string(bends.cols) + " numbers, not 4, 5 or 8", file);
   }
   const std::array<double*, 8> places{&lens.k1, &lens.k2, &lens.p1, &lens.p2, &lens.k3, &lens.k4, &lens.k5, &lens.k6};
   for (int k = 0; k < std::min(8, bends.cols); ++k) *places[static_cast<std::size_t>(k)] = bends.at<double>(0, k);

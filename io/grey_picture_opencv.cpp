@@ -27,11 +27,12 @@ GreyPicture read_grey_picture(const std::filesystem::path& path) {
   if (grey.empty())
     throw Error("this is no picture, or it is damaged", file.name(), "name a PNG, JPEG, TIFF, BMP or PGM picture");
   if (grey.cols > longest_side || grey.rows > longest_side)
-    throw Error("the picture is " + std::to_string(grey.cols) + " x " + std::to_string(grey.rows) + " pixels", file.name(),
-                "use the camera's own pictures, up to 40000 pixels a side");
+    throw Error("the picture is " + std::to_string(grey.cols) + " x " + std::to_string(grey.rows) + " pixels",
+                file.name(), "use the camera's own pictures, up to 40000 pixels a side");
   GreyPicture picture(grey.cols, grey.rows);
   for (int v = 0; v < grey.rows; ++v)
-    std::copy(grey.ptr<std::uint8_t>(v), grey.ptr<std::uint8_t>(v) + grey.cols, picture.pixels.data() + picture.index(0, v));
+    std::copy(grey.ptr<std::uint8_t>(v), grey.ptr<std::uint8_t>(v) + grey.cols,
+              picture.pixels.data() + picture.index(0, v));
   return picture;
 }
 

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/georeference/coded_pattern.h"
 #include "core/geometry/grey_picture.h"
 #include "core/geometry/pose.h"
+#include "core/georeference/coded_pattern.h"
 #include "core/surface/mesh.h"
 
 namespace adit::render {
@@ -16,7 +16,7 @@ namespace adit::render {
 /// A printed target on the wall.
 struct SceneTarget {
   TargetCode code = 0;
-  double radius_m = 0.075;                  ///< of the ring of segments
+  double radius_m = 0.075;                   ///< of the ring of segments
   Pose site_from_target = Pose::Identity();  ///< x right, y up on the paper, z towards who looks at it
 };
 
@@ -29,20 +29,21 @@ struct CameraScene {
   double ink_albedo = 0.05;
 };
 
-/// A pinhole: pixels for a unit of the plane z = 1, principal point in the middle. Camera frame: x right, y down, z ahead.
+/// A pinhole: pixels for a unit of the plane z = 1, principal point in the middle. Camera frame: x right, y down, z
+/// ahead.
 struct PinholeView {
   Pose site_from_camera = Pose::Identity();
   int width = 1280;
   int height = 960;
   double focal_px = 1000.0;
   Eigen::Vector3d lamp = Eigen::Vector3d(0.15, -0.25, 0.0);  ///< in the camera frame [m]
-  double lamp_reach_m = 6.0;  ///< a white wall there, seen squarely, is as bright as the picture can show; nearer ones fall
-                              ///< off by less than the square of the distance, as lamps are wide
-  double ambient = 0.02;      ///< light from all sides, over the same
+  double lamp_reach_m = 6.0;  ///< a white wall there, seen squarely, is as bright as the picture can show; nearer ones
+                              ///< fall off by less than the square of the distance, as lamps are wide
+  double ambient = 0.02;  ///< light from all sides, over the same
 };
 
-/// Draws scenes in the OpenGL context that is current (GlContext). Linear light, 255 the brightest; no blur but that of the
-/// pixels' own sampling: draw larger and average.
+/// Draws scenes in the OpenGL context that is current (GlContext). Linear light, 255 the brightest; no blur but that of
+/// the pixels' own sampling: draw larger and average.
 class CameraSceneView {
  public:
   explicit CameraSceneView(const CameraScene& scene);

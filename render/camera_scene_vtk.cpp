@@ -111,16 +111,15 @@ struct TargetShapes {
 };
 
 vtkSmartPointer<vtkActor> targets_actor(const CameraScene& scene) {
-  constexpr double above_paper = 4e-3;  // over the radius: ink before paper at any depth of the z buffer
+  constexpr double paper_behind = 4e-3;  // over the radius: ink before paper at any depth of the z buffer
   TargetShapes shapes;
   const unsigned char paper = byte_of(scene.paper_albedo), ink = byte_of(scene.ink_albedo);
   for (const SceneTarget& target : scene.targets) {
-    const double above_m = above_paper * target.radius_m;
-    shapes.add_piece(target, 0.0, coded_pattern::clear_radius, 0.0, 360.0, 0.0, paper);
-    shapes.add_piece(target, 0.0, coded_pattern::disc_radius, 90.0, 360.0, above_m, ink);
+    shapes.add_piece(target, 0.0, coded_pattern::clear_radius, 0.0, 360.0, -paper_behind * target.radius_m, paper);
+    shapes.add_piece(target, 0.0, coded_pattern::disc_radius, 90.0, 360.0, 0.0, ink);
     for (int k = 0; k < coded_pattern::segments; ++k)
       if (is_black(target.code, k))
-        shapes.add_piece(target, coded_pattern::ring_radius, 1.0, 30.0 * k, 30.0 * (k + 1), above_m, ink);
+        shapes.add_piece(target, coded_pattern::ring_radius, 1.0, 30.0 * k, 30.0 * (k + 1), 0.0, ink);
   }
   const auto albedo = greys(shapes.shades.size());
   for (std::size_t i = 0; i < shapes.shades.size(); ++i) set_grey(*albedo, i, shapes.shades[i]);

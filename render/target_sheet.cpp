@@ -10,10 +10,10 @@
 namespace adit::render {
 namespace {
 
-constexpr double margin_mm = 8.0;   // what printers leave white
-constexpr double foot_mm = 16.0;    // ruler and words
-constexpr double label_mm = 5.0;    // below a target
-constexpr double mark_mm = 4.0;     // of a crop mark
+constexpr double margin_mm = 8.0;  // what printers leave white
+constexpr double foot_mm = 16.0;   // ruler and words
+constexpr double label_mm = 5.0;   // below a target
+constexpr double mark_mm = 4.0;    // of a crop mark
 
 PaperPoint on_circle(const PaperPoint& centre, double radius_mm, double turn_rad) {
   return centre + radius_mm * PaperPoint(std::cos(turn_rad), -std::sin(turn_rad));  // counter-clockwise on paper
@@ -76,17 +76,17 @@ void draw_labelled(Canvas& canvas, const Rect& cell, double diameter_mm, int id)
   draw_target(canvas, centre, diameter_mm, code);
   canvas.text({cell.left + mark_mm + 1.0, cell.bottom() - 0.5}, "Adit " + std::to_string(id),
               {.size_mm = 3.2, .bold = true, .down = Down::bottom});
-  canvas.text({cell.right() - mark_mm - 1.0, cell.bottom() - 0.7},
-              bits_of(code) + "  " + fixed(diameter_mm, 0) + " mm",
+  canvas.text({cell.right() - mark_mm - 1.0, cell.bottom() - 0.7}, bits_of(code) + "  " + fixed(diameter_mm, 0) + " mm",
               {.size_mm = 2.2, .colour = colours::grey, .across = Across::right, .down = Down::bottom});
 }
 
 }  // namespace
 
 PaperSize paper_size(const std::string& name) {
-  static const std::vector<PaperSize> sizes{{"A5", 148.0, 210.0},     {"A4", 210.0, 297.0},     {"A3", 297.0, 420.0},
-                                            {"A2", 420.0, 594.0},     {"A1", 594.0, 841.0},     {"A0", 841.0, 1189.0},
-                                            {"Letter", 215.9, 279.4}, {"Legal", 215.9, 355.6}, {"Tabloid", 279.4, 431.8}};
+  static const std::vector<PaperSize> sizes{
+      {"A5", 148.0, 210.0},     {"A4", 210.0, 297.0},    {"A3", 297.0, 420.0},
+      {"A2", 420.0, 594.0},     {"A1", 594.0, 841.0},    {"A0", 841.0, 1189.0},
+      {"Letter", 215.9, 279.4}, {"Legal", 215.9, 355.6}, {"Tabloid", 279.4, 431.8}};
   std::string all;
   for (const PaperSize& size : sizes) {
     if (size.name == name) return size;
@@ -141,8 +141,8 @@ std::string target_pages(const std::vector<int>& ids, double diameter_mm, const 
 TargetBoard target_board(int first_id, int columns, int rows, double diameter_mm, const PaperSize& paper,
                          const DocumentTitle& title) {
   const bool lying = columns > rows;
-  const PaperSize sheet =
-      lying ? PaperSize{paper.name, paper.height_mm, paper.width_mm} : PaperSize{paper.name, paper.width_mm, paper.height_mm};
+  const PaperSize sheet = lying ? PaperSize{paper.name, paper.height_mm, paper.width_mm}
+                                : PaperSize{paper.name, paper.width_mm, paper.height_mm};
   const double side = diameter_mm * 1.1;
   const double width = sheet.width_mm - 2.0 * margin_mm, height = sheet.height_mm - 2.0 * margin_mm - foot_mm;
   if (columns * side > width || rows * side > height)
@@ -162,8 +162,9 @@ TargetBoard target_board(int first_id, int columns, int rows, double diameter_mm
                   {.size_mm = 1.8, .colour = colours::grey, .across = Across::centre, .down = Down::middle});
       board.centres_mm.emplace_back(c * step.x(), -r * step.y());
     }
-  draw_foot(canvas, sheet, "Calibration board, steps of " + fixed(step.x(), 1) + " x " + fixed(step.y(), 1) +
-                               " mm. Glue it onto something flat and stiff.");
+  draw_foot(canvas, sheet,
+            "Calibration board, steps of " + fixed(step.x(), 1) + " x " + fixed(step.y(), 1) +
+                " mm. Glue it onto something flat and stiff.");
   board.pdf = canvas.finish();
   return board;
 }

@@ -27,8 +27,9 @@ std::vector<int> ids_of(const std::string& words) {
     const std::string part = words.substr(at, comma - at);
     const std::size_t dash = part.find('-');
     int first = 0, last = 0;
-    const bool good = dash == std::string::npos ? read_id(part, first)
-                                                : read_id(part.substr(0, dash), first) && read_id(part.substr(dash + 1), last);
+    const bool good = dash == std::string::npos
+                          ? read_id(part, first)
+                          : read_id(part.substr(0, dash), first) && read_id(part.substr(dash + 1), last);
     if (!good || (dash != std::string::npos && last < first))
       throw Error("\"" + part + "\" names no ids", "--ids",
                   "write for instance 1-40,57; ids run from 1 to " + std::to_string(target_code_count));
@@ -58,10 +59,11 @@ Action declare_target(CLI::App& command) {
   };
   command.require_subcommand(1);
   auto parts = std::make_shared<std::vector<std::pair<CLI::App*, Action>>>();
-  for (const Part& part : {Part{"print", "targets on paper, or a board for calibration", declare_target_print},
-                           Part{"detect", "find and read targets in pictures", declare_target_detect},
-                           Part{"locate", "where the camera stood, from surveyed targets in its pictures", declare_target_locate},
-                           Part{"calibrate", "a camera's lens from pictures of a board", declare_target_calibrate}}) {
+  for (const Part& part :
+       {Part{"print", "targets on paper, or a board for calibration", declare_target_print},
+        Part{"detect", "find and read targets in pictures", declare_target_detect},
+        Part{"locate", "where the camera stood, from surveyed targets in its pictures", declare_target_locate},
+        Part{"calibrate", "a camera's lens from pictures of a board", declare_target_calibrate}}) {
     CLI::App* sub = command.add_subcommand(part.name, part.words);
     sub->fallthrough();  // --json and --quiet are the command's
     parts->emplace_back(sub, part.declare(*sub));

@@ -65,7 +65,8 @@ GreyPicture picture_of(const std::string& image, const std::optional<CameraLens>
   GreyPicture picture = io::read_grey_picture(image);
   if (lens && (picture.width != lens->width || picture.height != lens->height))
     throw Error("the picture has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
-                    " pixels, the camera file is for " + std::to_string(lens->width) + " x " + std::to_string(lens->height),
+                    " pixels, the camera file is for " + std::to_string(lens->width) + " x " +
+                    std::to_string(lens->height),
                 image, "name the file of the camera that took it, at this size");
   return picture;
 }
@@ -139,7 +140,8 @@ json pose_json(const std::string& image, const CameraPose& pose, const std::vect
   one["used"] = json::array();
   one["rejected"] = json::array();
   for (const LandmarkResidual& landmark : pose.landmarks) {
-    json residual{{"id", std::stoi(landmark.id)}, {"residual_px", {landmark.residual_px.x(), landmark.residual_px.y()}}};
+    json residual{{"id", std::stoi(landmark.id)},
+                  {"residual_px", {landmark.residual_px.x(), landmark.residual_px.y()}}};
     if (landmark.used)
       one["used"].push_back(landmark.id);
     else
@@ -165,10 +167,11 @@ json pose_json(const std::string& image, const CameraPose& pose, const std::vect
 void print_pose(const std::string& image, const CameraPose& pose) {
   const Eigen::Vector3d p = pose.site_from_camera.translation();
   const auto sigma = [&](int i, double unit) { return unit * std::sqrt(std::max(0.0, pose.covariance(i, i))); };
-  std::printf("%s: east %.4f north %.4f elevation %.4f, sigma %.1f / %.1f / %.1f mm, turned %.1f / %.1f / %.1f mdeg, %zu targets, rms %.2f px\n",
-              image.c_str(), p.x(), p.y(), p.z(), sigma(0, 1e3), sigma(1, 1e3), sigma(2, 1e3),
-              sigma(3, 1e3 * deg_from_rad(1.0)), sigma(4, 1e3 * deg_from_rad(1.0)), sigma(5, 1e3 * deg_from_rad(1.0)),
-              pose.used(), pose.rms_px);
+  std::printf(
+      "%s: east %.4f north %.4f elevation %.4f, sigma %.1f / %.1f / %.1f mm, turned %.1f / %.1f / %.1f mdeg, %zu targets, rms %.2f px\n",
+      image.c_str(), p.x(), p.y(), p.z(), sigma(0, 1e3), sigma(1, 1e3), sigma(2, 1e3),
+      sigma(3, 1e3 * deg_from_rad(1.0)), sigma(4, 1e3 * deg_from_rad(1.0)), sigma(5, 1e3 * deg_from_rad(1.0)),
+      pose.used(), pose.rms_px);
 }
 
 int locate(const Arguments& arguments, const CommonOptions& common, Progress& progress) {
@@ -242,9 +245,16 @@ int calibrate(const Arguments& arguments, const CommonOptions& common, Progress&
   }
   const CameraLens& lens = calibration.lens;
   if (common.json) {
-    json about{{"camera", arguments.out},       {"rms_px", calibration.rms_px}, {"fx", lens.fx}, {"fy", lens.fy},
-               {"cx", lens.cx},                 {"cy", lens.cy},                {"sigma_fx", calibration.sigma_fx},
-               {"sigma_fy", calibration.sigma_fy}, {"sigma_cx", calibration.sigma_cx}, {"sigma_cy", calibration.sigma_cy},
+    json about{{"camera", arguments.out},
+               {"rms_px", calibration.rms_px},
+               {"fx", lens.fx},
+               {"fy", lens.fy},
+               {"cx", lens.cx},
+               {"cy", lens.cy},
+               {"sigma_fx", calibration.sigma_fx},
+               {"sigma_fy", calibration.sigma_fy},
+               {"sigma_cx", calibration.sigma_cx},
+               {"sigma_cy", calibration.sigma_cy},
                {"pictures", json::array()}};
     for (const auto& picture : calibration.pictures)
       about["pictures"].push_back({{"image", picture.name},
@@ -253,9 +263,11 @@ int calibrate(const Arguments& arguments, const CommonOptions& common, Progress&
                                    {"tilt_deg", deg_from_rad(picture.tilt_rad)}});
     std::printf("%s\n", about.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
   } else if (!common.quiet) {
-    std::printf("%s: focal lengths %.2f +- %.2f and %.2f +- %.2f pixels, principal point %.2f +- %.2f, %.2f +- %.2f; %zu pictures, rms %.3f pixels (+- is two sigma)\n",
-                arguments.out.c_str(), lens.fx, 2.0 * calibration.sigma_fx, lens.fy, 2.0 * calibration.sigma_fy, lens.cx,
-                2.0 * calibration.sigma_cx, lens.cy, 2.0 * calibration.sigma_cy, calibration.pictures.size(), calibration.rms_px);
+    std::printf(
+        "%s: focal lengths %.2f +- %.2f and %.2f +- %.2f pixels, principal point %.2f +- %.2f, %.2f +- %.2f; %zu pictures, rms %.3f pixels (+- is two sigma)\n",
+        arguments.out.c_str(), lens.fx, 2.0 * calibration.sigma_fx, lens.fy, 2.0 * calibration.sigma_fy, lens.cx,
+        2.0 * calibration.sigma_cx, lens.cy, 2.0 * calibration.sigma_cy, calibration.pictures.size(),
+        calibration.rms_px);
   }
   return doubtful ? exit_needs_a_person : exit_good;
 }
@@ -274,7 +286,9 @@ Action declare_target_detect(CLI::App& command) {
 Action declare_target_locate(CLI::App& command) {
   auto arguments = std::make_shared<Arguments>();
   command.add_option("IMAGE", arguments->images, "pictures of one camera")->required()->check(some_name);
-  command.add_option("--camera", arguments->camera, "the camera's calibration (OpenCV's YAML)")->required()->check(some_name);
+  command.add_option("--camera", arguments->camera, "the camera's calibration (OpenCV's YAML)")
+      ->required()
+      ->check(some_name);
   command.add_option("--database", arguments->database, "surveyed targets: id,east,north,elevation")
       ->required()
       ->check(some_name);
@@ -291,7 +305,8 @@ Action declare_target_calibrate(CLI::App& command) {
       ->required()
       ->check(some_name);
   command.add_option("--out", arguments->out, "the camera file to write (OpenCV's YAML)")->required()->check(some_name);
-  return [arguments](const CommonOptions& common, Progress& progress) { return calibrate(*arguments, common, progress); };
+  return
+      [arguments](const CommonOptions& common, Progress& progress) { return calibrate(*arguments, common, progress); };
 }
 
 }  // namespace adit::app

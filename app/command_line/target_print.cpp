@@ -50,7 +50,8 @@ int print_board(const Arguments& arguments, const std::vector<int>& ids, double 
   io::write_file_atomically(arguments.out, board.pdf);
   io::write_file_atomically(table, csv_of(board, ids.front()));
   if (!common.quiet)
-    std::fprintf(stderr, "adit: %s, and where its targets are in %s [m]; measure the print, and scale the table if it is off\n",
+    std::fprintf(stderr,
+                 "adit: %s, and where its targets are in %s [m]; measure the print, and scale the table if it is off\n",
                  arguments.out.c_str(), table.c_str());
   return exit_good;
 }
@@ -63,8 +64,9 @@ Action declare_target_print(CLI::App& command) {
   command.add_option("--ids", arguments->ids, "which targets: 1-40,57 (1-40); low ids differ most from one another");
   command.add_option("--size", arguments->size, "diameter of the ring of segments, with its unit (150mm)");
   command.add_option("--paper", arguments->paper, "A5 to A0, Letter, Legal, Tabloid (A4)");
-  command.add_option("--board", arguments->board,
-                     "a board for calibration instead: columns x rows, from the first id on; writes its table beside it");
+  command.add_option(
+      "--board", arguments->board,
+      "a board for calibration instead: columns x rows, from the first id on; writes its table beside it");
   return [arguments](const CommonOptions& common, Progress&) {
     const std::vector<int> ids = ids_of(arguments->ids);
     const double diameter_mm = 1e3 * length_m_of(arguments->size, "--size");

@@ -18,20 +18,23 @@ void judge(CameraCalibration& calibration, int width, int height, const std::vec
   char words[200];
   if (calibration.rms_px > poor_rms_px) {
     std::snprintf(words, sizeof words, "the pictures fit to %.2f pixels (rms) only", calibration.rms_px);
-    calibration.findings.push_back({Severity::warning, "calibration", words,
-                                    "print the board on a stiff plane, measure it, and keep focus and zoom as they are"});
+    calibration.findings.push_back(
+        {Severity::warning, "calibration", words,
+         "print the board on a stiff plane, measure it, and keep focus and zoom as they are"});
   }
   if (calibration.sigma_fx > poor_focal * calibration.lens.fx) {
     std::snprintf(words, sizeof words, "the focal length is known to %.1f %% only (one sigma)",
                   100.0 * calibration.sigma_fx / calibration.lens.fx);
-    calibration.findings.push_back({Severity::warning, "calibration", words, "take more pictures, the board tilted to all sides"});
+    calibration.findings.push_back(
+        {Severity::warning, "calibration", words, "take more pictures, the board tilted to all sides"});
   }
   Eigen::AlignedBox2d box;
   for (const BoardPicture& picture : used)
     for (const BoardSight& sight : picture.sights) box.extend(sight.pixel);
   const double filled = box.sizes().x() * box.sizes().y() / (static_cast<double>(width) * height);
   if (filled < least_filled) {
-    std::snprintf(words, sizeof words, "the board was seen in %.0f %% of the picture only: the lens's rim is a guess", 100.0 * filled);
+    std::snprintf(words, sizeof words, "the board was seen in %.0f %% of the picture only: the lens's rim is a guess",
+                  100.0 * filled);
     calibration.findings.push_back({Severity::warning, "calibration", words, "move the board into every corner"});
   }
 }
@@ -46,9 +49,9 @@ CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, in
       used.push_back(picture);
       continue;
     }
-    calibration.findings.push_back({Severity::warning, picture.name,
-                                    "shows " + std::to_string(picture.sights.size()) + " targets of the board and is not used",
-                                    "six are needed"});
+    calibration.findings.push_back(
+        {Severity::warning, picture.name,
+         "shows " + std::to_string(picture.sights.size()) + " targets of the board and is not used", "six are needed"});
   }
   if (used.size() < least_pictures)
     throw Error("only " + std::to_string(used.size()) + " pictures show six targets of the board or more", {},
@@ -71,7 +74,8 @@ CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, in
     calibration.rms_px = cv::calibrateCamera(board, seen, cv::Size(width, height), matrix, bends, turns, shifts, sigmas,
                                              board_sigmas, per_picture);
   } catch (const cv::Exception&) {
-    throw Error("no camera fits to these pictures", {}, "check that the board's coordinates are those of the printed one");
+    throw Error("no camera fits to these pictures", {},
+                "check that the board's coordinates are those of the printed one");
   }
   double most_tilt = 0.0;
   for (std::size_t i = 0; i < used.size(); ++i) {
@@ -84,8 +88,9 @@ CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, in
   }
   constexpr double least_tilt_deg = 10.0;
   if (most_tilt < rad_from_deg(least_tilt_deg))
-    throw Error("the board was held square to the camera in all pictures: focal length and distance cannot be told apart", {},
-                "tilt it by 30 degrees and more, to all sides");
+    throw Error(
+        "the board was held square to the camera in all pictures: focal length and distance cannot be told apart", {},
+        "tilt it by 30 degrees and more, to all sides");
   CameraLens& lens = calibration.lens;
   lens.width = width;
   lens.height = height;

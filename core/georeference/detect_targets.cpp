@@ -54,7 +54,8 @@ std::vector<DarkBlob> candidates(const GreyPicture& level, double scale, const s
     for (const DarkBlob& small :
          dark_blobs(level, {.window_px = 11, .least_contrast = contrast, .most_area_px2 = 60.0}))
       if (std::none_of(blobs.begin(), blobs.begin() + static_cast<std::ptrdiff_t>(first), [&](const DarkBlob& blob) {
-            return (blob.center - small.center).squaredNorm() < 0.5 && blob.area_px2 < 1.3 * small.area_px2;
+            return (blob.center - small.center).squaredNorm() < 0.5 && blob.area_px2 < 1.3 * small.area_px2 &&
+                   small.area_px2 < 1.3 * blob.area_px2;
           }))
         blobs.push_back(small);
   }
@@ -120,6 +121,7 @@ std::vector<DetectedTarget> detect_targets(const GreyPicture& picture, const Det
   std::vector<DetectedTarget> found;
   TargetFitOptions fit = options.fit;
   if (fit.focal_length_px <= 0.0) fit.focal_length_px = std::max(picture.width, picture.height);
+  const double focal_px = fit.focal_length_px;
   GreyPicture level = picture;
   for (double scale = 1.0; level.width >= least_side_px && level.height >= least_side_px; scale *= 2.0) {
     progress.check();
@@ -130,6 +132,7 @@ std::vector<DetectedTarget> detect_targets(const GreyPicture& picture, const Det
       auto reading = read_target(level, start, fit);
       if (!reading) continue;
       enlarge(*reading, scale);
+      if (scale > 1.0) *reading = finer_reading(picture, *reading, focal_px);
       found.push_back(target_of(*reading));
       if (found.back().diameter_px < options.least_diameter_px) found.pop_back();
     }

@@ -24,9 +24,9 @@ struct Place {
   double grey;
 };
 
-std::optional<std::vector<Place>> places_of(const GreyPicture& picture, const TargetPlace& place, double blur_px,
-                                            double black) {
-  const TargetBlur blur(blur_px, place.shape);
+std::optional<std::vector<Place>> places_of(const GreyPicture& picture, const TargetPlace& place,
+                                            const TargetTone& tone) {
+  const TargetBlur blur(tone.blur_px, tone.bleed, place.shape);
   const double radius_px = Eigen::JacobiSVD<Eigen::Matrix2d>(place.shape).singularValues()(0);
   std::vector<Place> places;
   for (const PatternPlace& pattern : pattern_grid(from_radius, to_radius, radius_px, most_places_across)) {
@@ -34,9 +34,9 @@ std::optional<std::vector<Place>> places_of(const GreyPicture& picture, const Ta
     if (!picture.holds(pixel.x(), pixel.y())) return std::nullopt;
     const TargetDarkness darkness = darkness_at(pattern, blur);
     Place one;
-    for (int k = 0; k < segments; ++k) one.row(k) = -black * darkness.segments[static_cast<std::size_t>(k)];
+    for (int k = 0; k < segments; ++k) one.row(k) = -tone.black * darkness.segments[static_cast<std::size_t>(k)];
     one.row.tail<3>() << 1.0, pattern.at.x(), pattern.at.y();
-    one.grey = picture.between(pixel.x(), pixel.y()) + black * darkness.disc;
+    one.grey = picture.between(pixel.x(), pixel.y()) + tone.black * darkness.disc;
     places.push_back(one);
   }
   return places;
@@ -44,9 +44,9 @@ std::optional<std::vector<Place>> places_of(const GreyPicture& picture, const Ta
 
 }  // namespace
 
-std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, const TargetPlace& place, double blur_px,
-                                                double black) {
-  const auto places = places_of(picture, place, blur_px, black);
+std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, const TargetPlace& place,
+                                                const TargetTone& tone) {
+  const auto places = places_of(picture, place, tone);
   if (!places || places->size() < 2 * unknowns) return std::nullopt;
   constexpr int rounds = 3;
   double limit = std::numeric_limits<double>::infinity();
@@ -67,7 +67,7 @@ std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, cons
     const Eigen::Matrix<double, unknowns, unknowns> whole = normal.selfadjointView<Eigen::Lower>();
     covariance = whole.inverse();
     solution = covariance * right;
-    limit = std::max(3.0, 0.15 * black);
+    limit = std::max(3.0, 0.15 * tone.black);
     if (round > 0) covariance *= squares / std::max(1.0, weights - unknowns);
   }
   SegmentDarkness darkness;
@@ -119,9 +119,9 @@ std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const
   return DecodedTarget{code, next - best};
 }
 
-std::optional<DecodedTarget> decode_segments(const GreyPicture& picture, const TargetPlace& place, double blur_px,
-                                             double black, const std::vector<TargetCode>& codes) {
-  const auto darkness = segment_darkness(picture, place, blur_px, black);
+std::optional<DecodedTarget> decode_segments(const GreyPicture& picture, const TargetPlace& place,
+                                             const TargetTone& tone, const std::vector<TargetCode>& codes) {
+  const auto darkness = segment_darkness(picture, place, tone);
   return darkness ? nearest_code(*darkness, codes) : std::nullopt;
 }
 

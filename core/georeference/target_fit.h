@@ -28,6 +28,7 @@ struct TargetReading {
   TargetCode code = 0;
   TargetPlace place;
   double blur_px = 0.0;                                      ///< standard deviation of the point spread
+  double bleed = 0.0;                                        ///< how many of those white creeps over black
   double likeness = 0.0;                                     ///< correlation of picture and fitted pattern
   double margin = 0.0;                                       ///< how much worse the next code fits, in segments
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  ///< of the centre
@@ -45,10 +46,14 @@ struct TargetStart {
   TargetPlace place;
   double likeness = -1.0;  ///< correlation of picture, disc and white ring; below least_start_likeness it is none
 };
-inline constexpr double least_start_likeness = 0.75;
+inline constexpr double least_start_likeness = 0.70;
 
 /// The blob's moments give the disc up to a rotation: the one that looks best.
 TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob);
+
+/// The same reading adjusted to a finer picture of the same scene, in whose pixels it is given and returned; as it was
+/// where that fails. Places along the edges count.
+TargetReading finer_reading(const GreyPicture& picture, const TargetReading& reading, double focal_length_px);
 
 /// The target at a start; nothing where there is none, or it cannot be read without doubt. The start is refined on disc
 /// and white ring; the segments' darkness is solved for by least squares, blur and neighbours considered; then place,

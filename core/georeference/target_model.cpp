@@ -57,7 +57,7 @@ std::vector<PatternPlace> pattern_grid(double from_radius, double to_radius, dou
   return places;
 }
 
-TargetBlur::TargetBlur(double sigma_px, const Eigen::Matrix2d& shape) {
+TargetBlur::TargetBlur(double sigma_px, double bleeding, const Eigen::Matrix2d& shape) : bleed(bleeding) {
   constexpr double least = 1e-12;
   const Eigen::Matrix2d inverse = shape.inverse();
   covariance = sigma_px * sigma_px * inverse * inverse.transpose() + least * Eigen::Matrix2d::Identity();
@@ -65,34 +65,80 @@ TargetBlur::TargetBlur(double sigma_px, const Eigen::Matrix2d& shape) {
   along_y = std::sqrt(covariance(1, 1));
 }
 
-double disc_darkness_at(const PatternPlace& place, const TargetBlur& blur, double wider) {
-  const double across = wider * std::sqrt(place.outwards.dot(blur.covariance * place.outwards));
-  const double inside = step((coded_pattern::disc_radius - place.radius) / across);
+double disc_darkness_at(const PatternPlace& place, const TargetBlur& blur) {
+  const double across = std::sqrt(place.outwards.dot(blur.covariance * place.outwards));
+  const double inside = step((coded_pattern::disc_radius - place.radius) / across - blur.bleed);
   if (inside <= 0.0) return 0.0;
-  return inside * (1.0 - step(place.at.x() / (wider * blur.along_x)) * step(place.at.y() / (wider * blur.along_y)));
+  return inside *
+         (1.0 - step(place.at.x() / blur.along_x + blur.bleed) * step(place.at.y() / blur.along_y + blur.bleed));
 }
 
-TargetDarkness darkness_at(const PatternPlace& place, const TargetBlur& blur, double wider) {
+std::array<double, 4> quarters_at(const PatternPlace& place, const TargetBlur& blur) {
+  const double across = std::sqrt(place.outwards.dot(blur.covariance * place.outwards));
+  const double inside = step((coded_pattern::disc_radius - place.radius) / across - blur.bleed);
+  const double right = step(place.at.x() / blur.along_x + blur.bleed),
+               up = step(place.at.y() / blur.along_y + blur.bleed);
+  return {inside * right * up, inside * (1.0 - right) * up, inside * (1.0 - right) * (1.0 - up),
+          inside * right * (1.0 - up)};
+}
+
+namespace {
+
+/// Where a place lies in the ring of segments.
+struct InRing {
+  double share;        ///< of its light, over the radius
+  double per_segment;  ///< sigmas
+  int reach;           ///< boundaries that far away may matter
+  int here;            ///< segment
+
+  InRing(const PatternPlace& place, const TargetBlur& blur) {
+    const Eigen::Vector2d& out = place.outwards;
+    const Eigen::Vector2d around(-out.y(), out.x());
+    const double across = std::sqrt(out.dot(blur.covariance * out));
+    share = std::max(0.0, step((place.radius - coded_pattern::ring_radius) / across - blur.bleed) +
+                              step((1.0 - place.radius) / across - blur.bleed) - 1.0);
+    per_segment = place.radius * one_segment_rad / std::sqrt(around.dot(blur.covariance * around));
+    reach = std::min(segments / 2 - 1, static_cast<int>((4.0 + std::abs(blur.bleed)) / per_segment) + 1);
+    here = static_cast<int>(place.turn) % segments;
+  }
+};
+
+constexpr double nothing = 1e-6;
+
+std::size_t wrapped(int segment) {
+  return static_cast<std::size_t>((segment + segments) % segments);
+}
+
+}  // namespace
+
+TargetDarkness darkness_at(const PatternPlace& place, const TargetBlur& blur) {
   TargetDarkness darkness;
-  darkness.disc = disc_darkness_at(place, blur, wider);
-  const Eigen::Vector2d& out = place.outwards;
-  const Eigen::Vector2d around(-out.y(), out.x());
-  const double across = wider * std::sqrt(out.dot(blur.covariance * out));
-  const double in_ring =
-      step((place.radius - coded_pattern::ring_radius) / across) - step((place.radius - 1.0) / across);
-  if (in_ring <= 1e-6) return darkness;
-  const double per_segment =
-      place.radius * one_segment_rad / (wider * std::sqrt(around.dot(blur.covariance * around)));  // sigmas
-  // Only segments near the place: of the one that begins at b, the share step(turn - b) - step(turn - b - 1).
-  const int reach = std::min(segments / 2 - 1, static_cast<int>(4.0 / per_segment) + 1);
-  const int here = static_cast<int>(place.turn) % segments;
-  double before = step((place.turn - here + reach) * per_segment);
-  for (int k = -reach; k <= reach; ++k) {
-    const double behind = step((place.turn - here - k - 1) * per_segment);
-    darkness.segments[static_cast<std::size_t>((here + k + segments) % segments)] += in_ring * (before - behind);
+  darkness.disc = disc_darkness_at(place, blur);
+  const InRing ring(place, blur);
+  if (ring.share <= nothing) return darkness;
+  // Of the segment that begins at b, the share step(turn - b) - step(turn - b - 1).
+  double before = step((place.turn - ring.here + ring.reach) * ring.per_segment);
+  for (int k = -ring.reach; k <= ring.reach; ++k) {
+    const double behind = step((place.turn - ring.here - k - 1) * ring.per_segment);
+    darkness.segments[wrapped(ring.here + k)] += ring.share * (before - behind);
     before = behind;
   }
   return darkness;
+}
+
+double darkness_of(const Blackness& blackness, const PatternPlace& place, const TargetBlur& blur) {
+  const double disc = disc_darkness_at(place, blur);
+  const InRing ring(place, blur);
+  if (ring.share <= nothing) return disc;
+  // From boundary to boundary, each moved into the darker side.
+  double dark = blackness[wrapped(ring.here - ring.reach - 1)];
+  for (int k = -ring.reach; k <= ring.reach + 1; ++k) {
+    const double change = blackness[wrapped(ring.here + k)] - blackness[wrapped(ring.here + k - 1)];
+    if (change == 0.0) continue;
+    const double moved = change > 0.0 ? -blur.bleed : blur.bleed;
+    dark += change * step((place.turn - ring.here - k) * ring.per_segment + moved);
+  }
+  return disc + ring.share * std::max(0.0, dark);
 }
 
 }  // namespace adit

@@ -28,27 +28,28 @@ std::vector<PatternPlace> pattern_grid(double from_radius, double to_radius, dou
 struct TargetBlur {
   Eigen::Matrix2d covariance;
   double along_x, along_y;  ///< standard deviations
+  double bleed;             ///< how many of them white creeps over the edges of black: too much light, or a gamma
 
   /// From that of the picture. `shape`: pixels for one outer radius.
-  TargetBlur(double sigma_px, const Eigen::Matrix2d& shape);
+  TargetBlur(double sigma_px, double bleeding, const Eigen::Matrix2d& shape);
 };
 
 /// How much of the light at a place the black of each part takes away, 0 to 1 each. Edges are straight over the spread.
 struct TargetDarkness {
   double disc = 0.0;
   std::array<double, coded_pattern::segments> segments{};
-
-  /// All together, each segment as dark as that: 0 as the paper, 1 as the disc.
-  double of(const std::array<double, coded_pattern::segments>& blackness) const {
-    double sum = disc;
-    for (std::size_t k = 0; k < segments.size(); ++k) sum += blackness[k] * segments[k];
-    return sum;
-  }
 };
-/// wider: the point spread times that.
-TargetDarkness darkness_at(const PatternPlace& place, const TargetBlur& blur, double wider = 1.0);
+TargetDarkness darkness_at(const PatternPlace& place, const TargetBlur& blur);
+
+/// Of disc and segments together, each segment as dark as that: 0 as the paper, 1 as the disc. White creeps over the
+/// ends of black, not into what is black all through.
+using Blackness = std::array<double, coded_pattern::segments>;
+double darkness_of(const Blackness& blackness, const PatternPlace& place, const TargetBlur& blur);
 
 /// Of the disc alone, for places inside the segments.
-double disc_darkness_at(const PatternPlace& place, const TargetBlur& blur, double wider = 1.0);
+double disc_darkness_at(const PatternPlace& place, const TargetBlur& blur);
+
+/// Of the four quarters of the disc, the white one first, counter-clockwise: as if each were black.
+std::array<double, 4> quarters_at(const PatternPlace& place, const TargetBlur& blur);
 
 }  // namespace adit

@@ -70,7 +70,8 @@ struct Spot {
 void add_spot(Light& light, const Sensor& sensor, const Spot& spot) {
   const double reach = spot.long_px * (1.0 + 2.0 * spot.soft) + 1.0;
   for (int v = std::max(0, static_cast<int>(spot.v - reach)); v < std::min<double>(sensor.height, spot.v + reach); ++v)
-    for (int u = std::max(0, static_cast<int>(spot.u - reach)); u < std::min<double>(sensor.width, spot.u + reach); ++u) {
+    for (int u = std::max(0, static_cast<int>(spot.u - reach)); u < std::min<double>(sensor.width, spot.u + reach);
+         ++u) {
       const double x = std::cos(spot.turn_rad) * (u - spot.u) + std::sin(spot.turn_rad) * (v - spot.v);
       const double y = -std::sin(spot.turn_rad) * (u - spot.u) + std::cos(spot.turn_rad) * (v - spot.v);
       const double out = std::hypot(x / spot.long_px, y / spot.short_px);

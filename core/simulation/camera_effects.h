@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "core/georeference/camera_lens.h"
 #include "core/geometry/grey_picture.h"
+#include "core/georeference/camera_lens.h"
 
 namespace adit {
 

@@ -40,7 +40,9 @@ RockMesh rock_mesh(const RockTunnel& tunnel, double from_m, double to_m, double 
         }
       },
       4);
-  const auto index = [&](std::size_t r, std::size_t c) { return static_cast<std::uint32_t>(r * columns + c % columns); };
+  const auto index = [&](std::size_t r, std::size_t c) {
+    return static_cast<std::uint32_t>(r * columns + c % columns);
+  };
   for (std::size_t r = 0; r + 1 < rows; ++r)
     for (std::size_t c = 0; c < columns; ++c) {
       rock.mesh.triangles.push_back({index(r, c), index(r + 1, c), index(r + 1, c + 1)});

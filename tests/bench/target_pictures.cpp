@@ -42,7 +42,8 @@ Pose camera_in(const RockTunnel& tunnel, double chainage_m, double aside_m, doub
                const Eigen::Vector3d& turned_rad) {
   const Alignment& axis = tunnel.design().alignment();
   const PlanPoint plan = axis.horizontal().at(chainage_m);
-  const Eigen::Vector3d right(plan.right().x(), plan.right().y(), 0.0), ahead(plan.tangent().x(), plan.tangent().y(), 0.0);
+  const Eigen::Vector3d right(plan.right().x(), plan.right().y(), 0.0),
+      ahead(plan.tangent().x(), plan.tangent().y(), 0.0);
   Pose pose = Pose::Identity();
   pose.linear() << right, -Eigen::Vector3d::UnitZ(), ahead;
   pose.linear() = (pose.linear() * rotation_from_vector(turned_rad)).eval();
@@ -55,12 +56,17 @@ PictureOfTargets take_picture(const render::CameraScene& scene, const CameraLens
   constexpr double finer = 2.5;
   const IdealSize size = ideal_size(lens, finer);
   render::PinholeView view;
-  view.site_from_camera = site_from_camera;
+  // The camera at the origin: float32 is then fine enough to tell ink from paper.
+  const Eigen::Vector3d& eye = site_from_camera.translation();
+  render::CameraScene near = scene;
+  for (Eigen::Vector3d& point : near.rock.points) point -= eye;
+  for (render::SceneTarget& target : near.targets) target.site_from_target.translation() -= eye;
+  view.site_from_camera.linear() = site_from_camera.linear();
   view.width = size.width;
   view.height = size.height;
   view.focal_px = size.focal_px;
   view.lamp_reach_m = lamp_reach_m;
-  render::CameraSceneView drawn(scene);
+  render::CameraSceneView drawn(near);
   PictureOfTargets taken;
   taken.picture = stored_picture(drawn.picture(view), size.focal_px, lens, effects);
   const Pose camera_from_site = site_from_camera.inverse();

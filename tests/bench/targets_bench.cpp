@@ -13,6 +13,7 @@
 #include "core/foundation/angle.h"
 #include "core/foundation/random.h"
 #include "core/georeference/posit.h"
+#include "core/simulation/ray_cast.h"
 #include "io/atomic_file.h"
 #include "io/grey_picture_file.h"
 #include "render/canvas.h"
@@ -25,13 +26,16 @@ namespace {
 
 struct Score {
   int shown = 0, found = 0;
+  double squares = 0.0, normalised = 0.0;  ///< of what was found, both axes
+  double rms_px() const { return std::sqrt(squares / std::max(1, 2 * found)); }
+  double sigmas() const { return std::sqrt(normalised / std::max(1, 2 * found)); }
 };
 
 /// What a table of detections holds.
 struct Detections {
   Score all;
   int wrong = 0, invented = 0;
-  double squares = 0.0, normalised = 0.0, worst_px = 0.0;
+  double worst_px = 0.0;
   std::map<int, Score> by_size, by_tilt;
 
   void add(const PictureOfTargets& truth, const std::vector<DetectedTarget>& found) {
@@ -48,9 +52,11 @@ struct Detections {
           ++wrong;
           continue;
         }
-        for (Score* score : {&all, &by_size[size], &by_tilt[tilt]}) ++score->found;
-        squares += off.squaredNorm();
-        normalised += off.dot(found[i].covariance_px2.inverse() * off) / 2.0;
+        for (Score* score : {&all, &by_size[size], &by_tilt[tilt]}) {
+          ++score->found;
+          score->squares += off.squaredNorm();
+          score->normalised += off.dot(found[i].covariance_px2.inverse() * off);
+        }
         worst_px = std::max(worst_px, off.norm());
       }
     }
@@ -66,13 +72,14 @@ std::string share(const Score& score) {
 }
 
 /// Targets strewn before a camera so that each has its size and tilt in the picture, none before another.
-void strew_targets(render::CameraScene& scene, const CameraLens& lens, const Pose& site_from_camera, int count,
-                   const Random& random, std::uint64_t& k, int most_id) {
+void strew_targets(render::CameraScene& scene, const RayCast& rock, const CameraLens& lens,
+                   const Pose& site_from_camera, int count, const Random& random, std::uint64_t& k, int most_id) {
   std::vector<std::pair<Eigen::Vector2d, double>> taken;
   for (int tries = 0; tries < 600 && static_cast<int>(scene.targets.size()) < count; ++tries) {
-    const double diameter_px = 20.0 * std::pow(20.0, random.uniform(k++)), tilt = rad_from_deg(60.0 * random.uniform(k++));
+    const double diameter_px = 20.0 * std::pow(20.0, random.uniform(k++)),
+                 tilt = rad_from_deg(60.0 * random.uniform(k++));
     const double u = random.uniform(k++, 0.0, lens.width), v = random.uniform(k++, 0.0, lens.height);
-    const double depth = random.uniform(k++, 1.2, 4.0), towards = random.uniform(k++, 0.0, 2.0 * pi);
+    const double wanted_m = random.uniform(k++, 1.2, 4.0), towards = random.uniform(k++, 0.0, 2.0 * pi);
     const double turn = random.uniform(k++, 0.0, 2.0 * pi);
     const int id = 1 + static_cast<int>(random.uniform(k++) * most_id);
     const double room = 0.5 * coded_pattern::clear_radius * diameter_px + 4.0;
@@ -83,7 +90,13 @@ void strew_targets(render::CameraScene& scene, const CameraLens& lens, const Pos
       continue;
     const auto place = place_of(lens, {u, v});
     if (!place) continue;
-    const Eigen::Vector3d at = depth * Eigen::Vector3d(place->x(), place->y(), 1.0);
+    // Before the rock, whatever way the target is tilted.
+    const Eigen::Vector3d ray = Eigen::Vector3d(place->x(), place->y(), 1.0);
+    const auto hit =
+        rock.first_hit(site_from_camera.translation(), (site_from_camera.linear() * ray).normalized(), 60.0, {});
+    const double reach = 1.0 + coded_pattern::clear_radius * 0.5 * diameter_px / lens.focal_px();
+    const double depth = std::min(wanted_m, hit ? 0.9 * hit->range_m / ray.norm() / reach : wanted_m);
+    const Eigen::Vector3d at = depth * ray;
     render::SceneTarget target;
     target.code = code_of_id(id);
     target.radius_m = 0.5 * diameter_px * depth / lens.focal_px();
@@ -126,40 +139,44 @@ DetectOptions options_of(const CameraLens& lens, int most_id) {
 
 void print_detections(const char* title, const Detections& d) {
   std::printf("| %s | %s | %d | %d | %.3f | %.2f | %.2f |\n", title, share(d.all).c_str(), d.wrong, d.invented,
-              std::sqrt(d.squares / std::max(1, 2 * d.all.found)), d.worst_px,
-              std::sqrt(d.normalised / std::max(1, d.all.found)));
+              d.all.rms_px(), d.worst_px, d.all.sigmas());
 }
 
 void bench_detection(const RockTunnel& tunnel, const RockMesh& rock) {
   const CameraLens lens = picture_lens();
   Progress progress;
   Detections any, known;
+  const RayCast seen(tunnel);
   for (std::uint64_t picture = 1; any.all.shown < 1000; ++picture) {
     const Random random(picture, 61);
     std::uint64_t k = 0;
     const double chainage = random.uniform(k++, 15.0, 45.0), aside = random.uniform(k++, -1.0, 1.0);
-    const Pose camera = camera_in(tunnel, chainage, aside, 1.6,
-                                  {random.uniform(k, -0.2, 0.2), random.uniform(k + 1, -0.3, 0.3), random.uniform(k + 2, -0.1, 0.1)});
+    const Pose camera =
+        camera_in(tunnel, chainage, aside, 1.6,
+                  {random.uniform(k, -0.2, 0.2), random.uniform(k + 1, -0.3, 0.3), random.uniform(k + 2, -0.1, 0.1)});
     k += 3;
     render::CameraScene scene{rock.mesh, rock.albedo, {}};
-    strew_targets(scene, lens, camera, 12, random, k, 40);
+    strew_targets(scene, seen, lens, camera, 12, random, k, 40);
     const PictureOfTargets taken =
         take_picture(scene, lens, camera, random.uniform(k++, 3.0, 9.0), drawn_effects(random, k, picture));
     if (picture <= 6) keep(taken.picture, "targets_" + std::to_string(picture));
     any.add(taken, detect_targets(taken.picture, options_of(lens, target_code_count), progress));
     known.add(taken, detect_targets(taken.picture, options_of(lens, 40), progress));
   }
-  std::printf("\n### Targets in rendered pictures\n\nA rock tunnel by the light of a lamp, targets of 20 to 400 pixels, up to 60 degrees oblique; exposure a quarter to one and a half, blur 0.5 to 1.1 pixels, noise 0.5 to 2 grey levels and shot noise, up to 60 grains of dust and 4 reflections, gamma 1 or 2.2.\n\n"
-              "| codes | found | wrong ids | invented | off, rms px per axis | worst px | off over sigma |\n|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "\n### Targets in rendered pictures\n\nA rock tunnel by the light of a lamp, targets of 20 to 400 pixels, up to 60 degrees oblique; exposure a quarter to one and a half, blur 0.5 to 1.1 pixels, noise 0.5 to 2 grey levels and shot noise, up to 60 grains of dust and 4 reflections, gamma 1 or 2.2.\n\n"
+      "| codes | found | wrong ids | invented | off, rms px per axis | worst px | off over sigma |\n|---|---|---|---|---|---|---|\n");
   print_detections("any of 4017", any);
   print_detections("40 that are known to hang there", known);
-  std::printf("\n| | any code | 40 codes |\n|---|---|---|\n");
+  std::printf("\n| | any code | 40 codes | off, rms px per axis | off over sigma |\n|---|---|---|---|---|\n");
   for (const auto& [size, score] : any.by_size)
-    std::printf("| %.0f to %.0f px | %s | %s |\n", 20.0 * std::pow(2.0, size), 20.0 * std::pow(2.0, size + 1),
-                share(score).c_str(), share(known.by_size.at(size)).c_str());
+    std::printf("| %.0f to %.0f px | %s | %s | %.3f | %.2f |\n", 20.0 * std::pow(2.0, size),
+                20.0 * std::pow(2.0, size + 1), share(score).c_str(), share(known.by_size.at(size)).c_str(),
+                known.by_size.at(size).rms_px(), known.by_size.at(size).sigmas());
   for (const auto& [tilt, score] : any.by_tilt)
-    std::printf("| %d to %d degrees | %s | %s |\n", 15 * tilt, 15 * tilt + 15, share(score).c_str(),
-                share(known.by_tilt.at(tilt)).c_str());
+    std::printf("| %d to %d degrees | %s | %s | %.3f | %.2f |\n", 15 * tilt, 15 * tilt + 15, share(score).c_str(),
+                share(known.by_tilt.at(tilt)).c_str(), known.by_tilt.at(tilt).rms_px(),
+                known.by_tilt.at(tilt).sigmas());
 }
 
 /// Brickwork, wire mesh, bolts with plates and letters, drawn large and seen obliquely.
@@ -215,7 +232,8 @@ void bench_decoys(const RockTunnel& tunnel, const RockMesh& rock) {
       const double chainage = random.uniform(k++, 15.0, 45.0);
       const Pose camera = camera_in(tunnel, chainage, 0.0, 1.6, {0.0, random.uniform(k++, -1.5, 1.5), 0.0});
       picture = take_picture({rock.mesh, rock.albedo, {}}, lens, camera, random.uniform(k++, 3.0, 9.0),
-                             drawn_effects(random, k, i)).picture;
+                             drawn_effects(random, k, i))
+                    .picture;
     } else {
       picture = decoy(static_cast<int>(i % 5) - 1, random, lens, i);
     }
@@ -224,8 +242,9 @@ void bench_decoys(const RockTunnel& tunnel, const RockMesh& rock) {
     any += static_cast<int>(detect_targets(picture, options_of(lens, target_code_count), progress).size());
     known += static_cast<int>(detect_targets(picture, options_of(lens, 40), progress).size());
   }
-  std::printf("\n%d pictures without a target (bricks, wire mesh, bolts with plates and rings, letters, bare rock): %d targets found of any code, %d of 40.\n",
-              pictures, any, known);
+  std::printf(
+      "\n%d pictures without a target (bricks, wire mesh, bolts with plates and rings, letters, bare rock): %d targets found of any code, %d of 40.\n",
+      pictures, any, known);
 }
 
 /// Differences of two poses as the paper prints them: angles about the axes of the first station, and a shift.
@@ -262,10 +281,11 @@ void bench_stations(const RockTunnel& tunnel, const RockMesh& rock) {
     // Turned towards those who come.
     const PlanPoint plan = tunnel.design().alignment().horizontal().at(s);
     const Eigen::Vector3d back(-plan.tangent().x(), -plan.tangent().y(), 0.0);
-    pose.linear() = (Eigen::Quaterniond::FromTwoVectors(pose.linear().col(2), (pose.linear().col(2) + 1.2 * back).normalized())
-                         .toRotationMatrix() *
-                     pose.linear())
-                        .eval();
+    pose.linear() =
+        (Eigen::Quaterniond::FromTwoVectors(pose.linear().col(2), (pose.linear().col(2) + 1.2 * back).normalized())
+             .toRotationMatrix() *
+         pose.linear())
+            .eval();
     target.site_from_target = pose;
     scene.targets.push_back(target);
     const Eigen::Vector3d noise(random.normal(1000 + 3 * n), random.normal(1001 + 3 * n), random.normal(1002 + 3 * n));
@@ -275,14 +295,19 @@ void bench_stations(const RockTunnel& tunnel, const RockMesh& rock) {
   for (int i = 0; i < 5; ++i) {
     Station station;
     const double turn = 0.12 * random.uniform(200 + static_cast<std::uint64_t>(i), -1.0, 1.0);
-    station.truth = camera_in(tunnel, 12.0 + 5.3 * i, 0.4 * (i % 2 == 0 ? 1.0 : -1.0), 1.6, {0.03 * i - 0.05, turn, 0.02 * i});
+    station.truth =
+        camera_in(tunnel, 12.0 + 5.3 * i, 0.4 * (i % 2 == 0 ? 1.0 : -1.0), 1.6, {0.03 * i - 0.05, turn, 0.02 * i});
     CameraEffects effects;
     effects.seed = 100 + static_cast<std::uint64_t>(i);
     effects.dust = 20;
     effects.exposure = 0.9;
     const PictureOfTargets taken = take_picture(scene, lens, station.truth, 6.0, effects);
     station.picture = taken.picture;
-    if (getenv("DBGB")) for (auto& t : taken.targets) if (t.diameter_px > 18) fprintf(stderr, "st %d id %d d %.0f tilt %.0f at %.0f %.0f\n", i + 1, t.id, t.diameter_px, deg_from_rad(t.tilt_rad), t.pixel.x(), t.pixel.y());
+    if (getenv("DBGB"))
+      for (auto& t : taken.targets)
+        if (t.diameter_px > 18)
+          fprintf(stderr, "st %d id %d d %.0f tilt %.0f at %.0f %.0f\n", i + 1, t.id, t.diameter_px,
+                  deg_from_rad(t.tilt_rad), t.pixel.x(), t.pixel.y());
     keep(station.picture, "station_" + std::to_string(i + 1));
     for (const DetectedTarget& target : detect_targets(station.picture, options_of(lens, target_code_count), progress))
       if (const auto found = database.find(target.id); found != database.end())
@@ -294,31 +319,39 @@ void bench_stations(const RockTunnel& tunnel, const RockMesh& rock) {
     station.posit = station.pose.posit.site_from_camera;
     stations.push_back(std::move(station));
   }
-  std::printf("\n### Cameras placed by targets: the paper's table 4 again\n\nFive stations 5.3 m apart in a curved tunnel, targets of 220 mm (A3), surveyed to 1 mm. Theirs: 0.041 m and 0.115 degrees at most.\n\n"
-              "| stations | POSIT alone: angles, degrees | shift m | refined: angles, degrees | shift m |\n|---|---|---|---|---|\n");
+  std::printf(
+      "\n### Cameras placed by targets: the paper's table 4 again\n\nFive stations 5.3 m apart in a curved tunnel, targets of 220 mm (A3), surveyed to 1 mm. Theirs: 0.041 m and 0.115 degrees at most.\n\n"
+      "| stations | POSIT alone: angles, degrees | shift m | refined: angles, degrees | shift m |\n|---|---|---|---|---|\n");
   double most_angle[2] = {0, 0}, most_shift[2] = {0, 0};
-  for (const auto& [a, b] : {std::pair(0, 1), std::pair(0, 2), std::pair(0, 3), std::pair(0, 4), std::pair(1, 2), std::pair(2, 3), std::pair(3, 4)}) {
+  for (const auto& [a, b] : {std::pair(0, 1), std::pair(0, 2), std::pair(0, 3), std::pair(0, 4), std::pair(1, 2),
+                             std::pair(2, 3), std::pair(3, 4)}) {
     const Station &first = stations[static_cast<std::size_t>(a)], &second = stations[static_cast<std::size_t>(b)];
     std::printf("| %d-%d |", a + 1, b + 1);
     for (int way = 0; way < 2; ++way) {
       const PoseError error = way == 0 ? error_of(first.posit, second.posit, first.truth, second.truth)
                                        : error_of(first.refined, second.refined, first.truth, second.truth);
-      const char* form = way == 0 ? " %+.3f %+.3f %+.3f | %+.3f %+.3f %+.3f |" : " %+.4f %+.4f %+.4f | %+.4f %+.4f %+.4f |";
-      std::printf(form, error.angles_deg.x(), error.angles_deg.y(), error.angles_deg.z(), error.shift_m.x(), error.shift_m.y(), error.shift_m.z());
+      const char* form =
+          way == 0 ? " %+.3f %+.3f %+.3f | %+.3f %+.3f %+.3f |" : " %+.4f %+.4f %+.4f | %+.4f %+.4f %+.4f |";
+      std::printf(form, error.angles_deg.x(), error.angles_deg.y(), error.angles_deg.z(), error.shift_m.x(),
+                  error.shift_m.y(), error.shift_m.z());
       most_angle[way] = std::max(most_angle[way], error.angles_deg.cwiseAbs().maxCoeff());
       most_shift[way] = std::max(most_shift[way], error.shift_m.cwiseAbs().maxCoeff());
     }
     std::printf("\n");
   }
-  std::printf("\nAt most: POSIT alone %.3f degrees, %.4f m; refined %.4f degrees, %.4f m. Stations off the truth, refined:", most_angle[0], most_shift[0], most_angle[1], most_shift[1]);
+  std::printf(
+      "\nAt most: POSIT alone %.3f degrees, %.4f m; refined %.4f degrees, %.4f m. Stations off the truth, refined:",
+      most_angle[0], most_shift[0], most_angle[1], most_shift[1]);
   for (const Station& station : stations) {
     Vector6d off;
     off.head<3>() = station.refined.translation() - station.truth.translation();
     off.tail<3>() = rotation_vector(station.refined.linear() * station.truth.linear().transpose());
-    std::printf(" %.1f mm %.4f deg (%zu targets, %.2f sigmas);", 1e3 * off.head<3>().norm(), deg_from_rad(off.tail<3>().norm()), station.pose.used(),
+    std::printf(" %.1f mm %.4f deg (%zu targets, %.2f sigmas);", 1e3 * off.head<3>().norm(),
+                deg_from_rad(off.tail<3>().norm()), station.pose.used(),
                 std::sqrt(off.dot(station.pose.covariance.inverse() * off) / 6.0));
   }
-  std::printf("\n\n| on one core | targets | find and read ms | pose ms | of it POSIT ms | solvePnP (SQPnP) ms | refined and solvePnP differ by |\n|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "\n\n| on one core | targets | find and read ms | pose ms | of it POSIT ms | solvePnP (SQPnP) ms | refined and solvePnP differ by |\n|---|---|---|---|---|---|---|\n");
   const tbb::global_control one_core(tbb::global_control::max_allowed_parallelism, 1);
   for (const Station& station : stations) {
     const DetectOptions options = options_of(lens, target_code_count);
@@ -338,7 +371,8 @@ void bench_stations(const RockTunnel& tunnel, const RockMesh& rock) {
     const cv::Mat matrix = (cv::Mat_<double>(3, 3) << lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1);
     const cv::Mat bends = (cv::Mat_<double>(1, 5) << lens.k1, lens.k2, lens.p1, lens.p2, lens.k3);
     cv::Mat turn, shift;
-    const double peer_s = seconds_of(50, [&] { cv::solvePnP(object, pixels, matrix, bends, turn, shift, false, cv::SOLVEPNP_SQPNP); });
+    const double peer_s =
+        seconds_of(50, [&] { cv::solvePnP(object, pixels, matrix, bends, turn, shift, false, cv::SOLVEPNP_SQPNP); });
     cv::Mat rotation;
     cv::Rodrigues(turn, rotation);
     Pose peer = Pose::Identity();
@@ -346,9 +380,10 @@ void bench_stations(const RockTunnel& tunnel, const RockMesh& rock) {
       for (int c = 0; c < 3; ++c) peer.linear()(r, c) = rotation.at<double>(r, c);
       peer.translation()(r) = shift.at<double>(r);
     }
-    std::printf("| %td | %zu | %.1f | %.2f | %.3f | %.3f | %.2f mm, %.4f deg |\n", &station - stations.data() + 1, station.sights.size(),
-                1e3 * find_s, 1e3 * pose_s, 1e3 * posit_s, 1e3 * peer_s,
-                1e3 * distance_between_m(peer.inverse(), station.refined), deg_from_rad(rotation_between_rad(peer.inverse(), station.refined)));
+    std::printf("| %td | %zu | %.1f | %.2f | %.3f | %.3f | %.2f mm, %.4f deg |\n", &station - stations.data() + 1,
+                station.sights.size(), 1e3 * find_s, 1e3 * pose_s, 1e3 * posit_s, 1e3 * peer_s,
+                1e3 * distance_between_m(peer.inverse(), station.refined),
+                deg_from_rad(rotation_between_rad(peer.inverse(), station.refined)));
   }
 }
 
