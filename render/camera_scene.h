@@ -39,7 +39,7 @@ struct PinholeView {
   Eigen::Vector3d lamp = Eigen::Vector3d(0.15, -0.25, 0.0);  ///< in the camera frame [m]
   double lamp_reach_m = 6.0;  ///< a white wall there, seen squarely, is as bright as the picture can show; nearer ones
                               ///< fall off by less than the square of the distance, as lamps are wide
-  double ambient = 0.02;  ///< light from all sides, over the same
+  double ambient = 0.02;      ///< light from all sides, over the same
 };
 
 /// Draws scenes in the OpenGL context that is current (GlContext). Linear light, 255 the brightest; no blur but that of

@@ -103,13 +103,14 @@ int detect(const Arguments& arguments, const CommonOptions& common, Progress& pr
   if (!arguments.camera.empty()) lens = io::read_camera(arguments.camera);
   const DetectOptions options = detect_options(arguments.ids, lens ? lens->focal_px() : 0.0);
   json list = json::array();
-  if (!common.json) std::printf("image,id,u,v,diameter_px,sigma_px\n");
   const auto finish = [&] {
-    if (common.json) std::printf("%s\n", list.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
+    if (common.json && !list.empty())
+      std::printf("%s\n", list.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
   };
   try {
     for_each_image(arguments.images, progress, [&](const std::string& image) {
       const std::vector<DetectedTarget> targets = detect_targets(picture_of(image, lens), options, progress);
+      if (!common.json && list.empty()) std::printf("image,id,u,v,diameter_px,sigma_px\n");
       json one{{"image", image}, {"targets", json::array()}};
       for (const DetectedTarget& target : targets) {
         one["targets"].push_back(target_json(target));
@@ -182,7 +183,8 @@ int locate(const Arguments& arguments, const CommonOptions& common, Progress& pr
   json list = json::array();
   bool needs_a_person = false;
   const auto finish = [&] {
-    if (common.json) std::printf("%s\n", list.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
+    if (common.json && !list.empty())
+      std::printf("%s\n", list.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
   };
   try {
     for_each_image(arguments.images, progress, [&](const std::string& image) {
@@ -232,7 +234,13 @@ int calibrate(const Arguments& arguments, const CommonOptions& common, Progress&
       one.sights.push_back({board.at(target.id), target.center});
     pictures.push_back(std::move(one));
   });
-  const CameraCalibration calibration = calibrate_camera(pictures, width, height);
+  const CameraCalibration calibration = [&] {
+    try {
+      return calibrate_camera(pictures, width, height);
+    } catch (const Error& error) {
+      throw Error(error.what_is_wrong(), arguments.board, error.mend());
+    }
+  }();
   char note[120];
   std::snprintf(note, sizeof note, "adit target calibrate: %zu pictures, rms %.3f pixels", calibration.pictures.size(),
                 calibration.rms_px);

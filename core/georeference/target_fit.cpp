@@ -286,9 +286,10 @@ FitQuality quality_of(const FitProblem& problem, const Appearance& look) {
     const double grey = problem.picture->between(pixel.x(), pixel.y());
     const bool is_near = std::abs(grey - value_of(look, place.at, darkness)) <= limit;
     const bool in_core = place.radius < core_radius;
-    all += 1.0;
+    const bool counts = place.radius < 1.04;  // beyond, the paper of small targets ends
+    all += counts ? 1.0 : 0.0;
     core += in_core ? 1.0 : 0.0;
-    near += is_near ? 1.0 : 0.0;
+    near += is_near && counts ? 1.0 : 0.0;
     core_near += is_near && in_core ? 1.0 : 0.0;
     if (is_near) correlation.add(grey - look.white_slope.dot(place.at), -darkness);
   }

@@ -303,11 +303,6 @@ void bench_stations(const RockTunnel& tunnel, const RockMesh& rock) {
     effects.exposure = 0.9;
     const PictureOfTargets taken = take_picture(scene, lens, station.truth, 6.0, effects);
     station.picture = taken.picture;
-    if (getenv("DBGB"))
-      for (auto& t : taken.targets)
-        if (t.diameter_px > 18)
-          fprintf(stderr, "st %d id %d d %.0f tilt %.0f at %.0f %.0f\n", i + 1, t.id, t.diameter_px,
-                  deg_from_rad(t.tilt_rad), t.pixel.x(), t.pixel.y());
     keep(station.picture, "station_" + std::to_string(i + 1));
     for (const DetectedTarget& target : detect_targets(station.picture, options_of(lens, target_code_count), progress))
       if (const auto found = database.find(target.id); found != database.end())

@@ -7,6 +7,7 @@
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "core/foundation/random.h"
+#include "core/georeference/calibrate_camera.h"
 #include "core/georeference/posit.h"
 
 namespace adit {
@@ -167,6 +168,52 @@ TEST(CameraPose, AMovedTargetAndWrongIdsAreNamedAndNotUsed) {
     ASSERT_FALSE(pose.findings.empty());
     EXPECT_EQ(pose.findings[0].subject, "target 3");
   }
+}
+
+/// Pictures of a board of 7 x 5 targets, 40 mm apart, held before the camera in many ways.
+std::vector<BoardPicture> board_pictures(const CameraLens& lens, int count, double most_tilt_rad, double noise_px) {
+  const Random random(4, 9);
+  std::uint64_t k = 0;
+  std::vector<BoardPicture> pictures;
+  for (int i = 0; i < count; ++i) {
+    Pose pose = Pose::Identity();
+    pose.linear() =
+        rotation_from_vector({random.uniform(k, -most_tilt_rad, most_tilt_rad),
+                              random.uniform(k + 1, -most_tilt_rad, most_tilt_rad), random.uniform(k + 2, -0.5, 0.5)});
+    pose.translation() = Eigen::Vector3d(random.uniform(k + 3, -0.25, 0.05), random.uniform(k + 4, -0.2, 0.05),
+                                         random.uniform(k + 5, 0.28, 0.4));
+    k += 6;
+    BoardPicture picture{"board " + std::to_string(i), {}};
+    for (int c = 0; c < 7; ++c)
+      for (int r = 0; r < 5; ++r) {
+        const Eigen::Vector3d board(0.04 * c, 0.04 * r, 0.0);
+        const Eigen::Vector2d pixel = pixel_of(lens, pose * board);
+        if (pixel.x() < 10 || pixel.y() < 10 || pixel.x() > lens.width - 10 || pixel.y() > lens.height - 10) continue;
+        picture.sights.push_back({board, pixel + noise_px * Eigen::Vector2d(random.normal(k), random.normal(k + 1))});
+        k += 2;
+      }
+    pictures.push_back(picture);
+  }
+  return pictures;
+}
+
+TEST(CalibrateCamera, TheLensWithinItsSigmas) {
+  const CameraLens lens = lens_of();
+  const CameraCalibration found = calibrate_camera(board_pictures(lens, 20, 0.7, 0.05), lens.width, lens.height);
+  EXPECT_NEAR(found.rms_px, 0.05 * std::sqrt(2.0), 0.01);
+  EXPECT_NEAR(found.lens.fx, lens.fx, 4.0 * found.sigma_fx);
+  EXPECT_NEAR(found.lens.fy, lens.fy, 4.0 * found.sigma_fy);
+  EXPECT_NEAR(found.lens.cx, lens.cx, 4.0 * found.sigma_cx);
+  EXPECT_LT(found.sigma_fx, 2.0);
+  // What counts: where a far corner is seen.
+  const Eigen::Vector3d corner(0.55, 0.33, 1.0);
+  EXPECT_LT((pixel_of(found.lens, corner) - pixel_of(lens, corner)).norm(), 1.0);
+}
+
+TEST(CalibrateCamera, TooFewAndSquarePicturesAreRefused) {
+  const CameraLens lens = lens_of();
+  EXPECT_THROW(calibrate_camera(board_pictures(lens, 3, 0.7, 0.05), lens.width, lens.height), Error);
+  EXPECT_THROW(calibrate_camera(board_pictures(lens, 12, 0.0, 0.05), lens.width, lens.height), Error);
 }
 
 TEST(CameraPose, TooLittleIsRefusedAndDoubtIsSaid) {
