@@ -121,12 +121,13 @@ std::string target_pages(const std::vector<int>& ids, double diameter_mm, const 
                     " mm fit; use a larger paper for more");
   Canvas canvas = Canvas::pdf(paper.width_mm, paper.height_mm, title);
   const double gap_x = (width - columns * side) / columns, gap_y = (height - rows * (side + label_mm)) / rows;
-  const auto per_page = static_cast<std::size_t>(columns * rows);
+  const auto per_page = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const std::size_t on_page = i % per_page;
     if (i > 0 && on_page == 0) canvas.next_page();
     const auto column = static_cast<double>(on_page % static_cast<std::size_t>(columns));
-    const auto row = static_cast<double>(on_page / static_cast<std::size_t>(columns));
+    const std::size_t row_number = on_page / static_cast<std::size_t>(columns);
+    const auto row = static_cast<double>(row_number);
     const Rect cell{margin_mm + (column + 0.5) * gap_x + column * side,
                     margin_mm + (row + 0.5) * gap_y + row * (side + label_mm), side, side + label_mm};
     draw_crop_marks(canvas, cell);

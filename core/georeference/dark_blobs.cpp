@@ -127,8 +127,9 @@ class WindowSums {
     int sum = 0;
     for (int u = 0; u < std::min(half_px_, width); ++u) sum += columns_[static_cast<std::size_t>(u)];
     for (int u = 0; u < width; ++u) {
-      if (u + half_px_ < width) sum += columns_[static_cast<std::size_t>(u + half_px_)];
-      if (u - half_px_ - 1 >= 0) sum -= columns_[static_cast<std::size_t>(u - half_px_ - 1)];
+      const int entering = u + half_px_, left = u - half_px_ - 1;
+      if (entering < width) sum += columns_[static_cast<std::size_t>(entering)];
+      if (left >= 0) sum -= columns_[static_cast<std::size_t>(left)];
       const int across = std::min(u + half_px_, width - 1) - std::max(u - half_px_, 0) + 1;
       means[static_cast<std::size_t>(u)] = static_cast<float>(sum) / static_cast<float>(rows * across);
     }

@@ -10,9 +10,9 @@
 
 namespace adit {
 
-inline constexpr double core_radius = 0.60;    ///< disc and most of the white ring
-inline constexpr double whole_radius = 1.14;   ///< and some of the paper around
-inline constexpr double usual_blur_px = 0.8;   ///< of cameras in focus, where a target tells little of it
+inline constexpr double core_radius = 0.60;   ///< disc and most of the white ring
+inline constexpr double whole_radius = 1.14;  ///< and some of the paper around
+inline constexpr double usual_blur_px = 0.8;  ///< of cameras in focus, where a target tells little of it
 
 /// Correlation of two lists of numbers.
 class Correlation {
@@ -85,8 +85,8 @@ double outlier_limit(const Appearance& look);
 /// Levels of white and black by least squares at a fixed place.
 void set_levels(const FitProblem& problem, Appearance& look);
 
-/// Gauss-Newton with damping, places off by more than `limit` grey levels weighed down (Huber). False where it leaves the
-/// picture or the pattern turns inside out.
+/// Gauss-Newton with damping, places off by more than `limit` grey levels weighed down (Huber). False where it leaves
+/// the picture or the pattern turns inside out.
 bool refine(const FitProblem& problem, Appearance& look, double limit, int most_steps, FitSums& last);
 
 /// Covariance of the centre [pixels squared].

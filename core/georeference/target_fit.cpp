@@ -21,8 +21,8 @@ using coded_pattern::segments;
 
 constexpr double places_across = 26.0;
 constexpr double least_core_likeness = 0.93, sure_core_likeness = 0.985;
-constexpr double least_soft_likeness = 0.80;
-constexpr double least_likeness = 0.95;
+constexpr double least_soft_likeness = 0.80, sure_likeness = 0.975, hopeless_likeness = 0.70;
+constexpr double least_likeness = 0.96, least_likeness_covered = 0.98;
 // Shares of places that must lie near the fitted pattern. What is no target, or another code, leaves more of them.
 constexpr double least_core_near = 0.80, least_soft_near = 0.70, least_disc_near = 0.93;
 constexpr double least_near_of_any = 0.97, least_near_of_known = 0.80;
@@ -144,8 +144,8 @@ std::optional<Whole> fit_whole(const GreyPicture& picture, const Appearance& cor
 
 /// True when three quarters of the disc are black and the one that should be is white. Rings and discs of other things
 /// have no such quarter.
-bool shows_the_quarter(const FitProblem& problem, const Appearance& look) {
-  constexpr double most_white = 0.4, least_black = 0.4;
+bool shows_the_quarter(const FitProblem& problem, const Appearance& look, bool may_be_covered) {
+  constexpr double most_white = 0.3, sure_black = 0.65, covered_black = 0.4;
   const TargetBlur blur(look.blur_px, look.bleed, look.place.shape);
   Eigen::Matrix<double, 5, 5> normal = 1e-6 * Eigen::Matrix<double, 5, 5>::Identity();
   Eigen::Matrix<double, 5, 1> right = Eigen::Matrix<double, 5, 1>::Zero();
@@ -162,8 +162,12 @@ bool shows_the_quarter(const FitProblem& problem, const Appearance& look) {
   }
   const Eigen::Matrix<double, 5, 1> dark = normal.ldlt().solve(right);
   int black = 0;
-  for (int k = 1; k < 4; ++k) black += dark(k) > least_black ? 1 : 0;
-  return dark(0) < most_white && black == 3;
+  bool none_white = true;
+  for (int k = 1; k < 4; ++k) {
+    black += dark(k) > sure_black ? 1 : 0;
+    none_white = none_white && dark(k) > covered_black;
+  }
+  return dark(0) < most_white && none_white && black >= (may_be_covered ? 2 : 3);
 }
 
 /// The code, and everything adjusted to it. Nothing where the code does not stay the same.
@@ -178,11 +182,13 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
   if (!refine(problem, look, outlier_limit(look), steps, last) || !last.whole) return std::nullopt;
   const FitQuality quality = quality_of(problem, look);
   const double least_near = codes.empty() ? least_near_of_any : least_near_of_known;
-  if (quality.likeness < least_likeness || quality.near < least_near || quality.core_near < least_disc_near)
+  // What is covered in part must fit the better elsewhere.
+  const double wanted = quality.near < least_near_of_any ? least_likeness_covered : least_likeness;
+  if (quality.likeness < wanted || quality.near < least_near || quality.core_near < least_disc_near)
     return std::nullopt;
   const auto decoded = decode_segments(*problem.picture, look.place, {look.blur_px, look.bleed, look.black}, codes);
   if (!decoded || decoded->code != first->code) return std::nullopt;
-  if (!shows_the_quarter(problem, look)) return std::nullopt;
+  if (!shows_the_quarter(problem, look, !codes.empty())) return std::nullopt;
   return TargetReading{decoded->code,
                        look.place,
                        look.blur_px,
@@ -262,11 +268,16 @@ std::optional<TargetReading> read_target(const GreyPicture& picture, const Targe
   const double focal_px =
       options.focal_length_px > 0.0 ? options.focal_length_px : std::max(picture.width, picture.height);
   std::optional<Whole> best;
-  for (const Appearance& core : cores)
+  for (const Appearance& core : cores) {
+    // Sure already, or hopeless: the larger scale, last, helps only where the others nearly fit.
+    const bool last = cores.size() > 1 && &core == &cores.back();
+    if (best && best->likeness > sure_likeness) break;
+    if (last && (!best || best->likeness < hopeless_likeness)) break;
     for (const Eigen::Vector2d& tilt : possible_tilts(core.place.shape, focal_px)) {
       const auto whole = fit_whole(picture, core, tilt, focal_px);
       if (whole && (!best || whole->likeness > best->likeness)) best = whole;
     }
+  }
   return best && best->likeness >= least_soft_likeness ? read_whole(best->problem, best->look, options.codes)
                                                        : std::nullopt;
 }

@@ -36,7 +36,7 @@ double seen_by(const GreyPicture& ideal, double focal_px, const CameraLens& lens
 
 void blur(Light& light, const Sensor& sensor, double sigma_px) {
   const int half = std::max(1, static_cast<int>(std::ceil(3.5 * sigma_px)));
-  std::vector<float> kernel;
+  std::vector<float> kernel;  // from -half
   float total = 0.0F;
   for (int k = -half; k <= half; ++k) {
     kernel.push_back(static_cast<float>(std::exp(-0.5 * k * k / (sigma_px * sigma_px))));
@@ -53,7 +53,7 @@ void blur(Light& light, const Sensor& sensor, double sigma_px) {
             for (int k = -half; k <= half; ++k) {
               const int i = along ? std::clamp(u + k, 0, sensor.width - 1) : u;
               const int j = along ? v : std::clamp(v + k, 0, sensor.height - 1);
-              sum += kernel[static_cast<std::size_t>(k + half)] * before[sensor.at(i, j)];
+              sum += kernel[static_cast<std::size_t>(k) + static_cast<std::size_t>(half)] * before[sensor.at(i, j)];
             }
             light[sensor.at(u, v)] = sum / total;
           }
