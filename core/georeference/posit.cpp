@@ -26,7 +26,7 @@ struct ObjectMatrix {
       : differences(static_cast<Eigen::Index>(points.size()) - 1, 3), flat(in_plane) {
     for (Eigen::Index i = 0; i < differences.rows(); ++i)
       differences.row(i) = (points[static_cast<std::size_t>(i) + 1] - points[0]).transpose();
-    const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(differences, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(differences, Eigen::ComputeThinU | Eigen::ComputeThinV);
     normal = svd.matrixV().col(2);
     Eigen::Vector3d over = svd.singularValues().cwiseInverse();
     if (flat) over(2) = 0.0;
