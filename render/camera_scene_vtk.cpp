@@ -1,5 +1,4 @@
 #include <vtkActor.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -7,7 +6,6 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
-#include <vtkOpenGLState.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -21,13 +19,10 @@
 
 #include "core/foundation/angle.h"
 #include "render/camera_scene.h"
+#include "render/off_screen_vtk.h"
 
 namespace adit::render {
 namespace {
-
-void answer_yes(vtkObject*, unsigned long, void*, void* call) {
-  *static_cast<bool*>(call) = true;
-}
 
 unsigned char byte_of(double albedo) {
   return static_cast<unsigned char>(std::lround(255.0 * std::clamp(albedo, 0.0, 1.0)));
@@ -141,17 +136,8 @@ struct CameraSceneView::Stage {
 };
 
 CameraSceneView::CameraSceneView(const CameraScene& scene) : stage_(std::make_unique<Stage>()) {
-  vtkNew<vtkCallbackCommand> yes;
-  yes->SetCallback(answer_yes);
-  auto& window = *stage_->window;
-  window.AddObserver(vtkCommand::WindowIsCurrentEvent, yes);
-  window.AddObserver(vtkCommand::WindowSupportsOpenGLEvent, yes);
-  window.SetReadyForRendering(true);
-  window.InitializeFromCurrentContext();
-  window.SetMultiSamples(0);
-  window.SetShowWindow(false);
-  window.SetUseOffScreenBuffers(true);
-  window.AddRenderer(stage_->renderer);
+  begin_off_screen(*stage_->window);
+  stage_->window->AddRenderer(stage_->renderer);
   vtkRenderer& renderer = *stage_->renderer;
   renderer.SetBackground(0.0, 0.0, 0.0);
   renderer.AutomaticLightCreationOff();
@@ -187,15 +173,10 @@ GreyPicture CameraSceneView::picture(const PinholeView& view) {
   for (const auto& actor : stage_->actors) actor->GetProperty()->SetAmbient(view.ambient);
   vtkGenericOpenGLRenderWindow& window = *stage_->window;
   window.SetSize(view.width, view.height);
-  window.GetState()->Reset();
-  window.Render();
-  vtkNew<vtkUnsignedCharArray> rows;
-  window.GetPixelData(0, 0, view.width - 1, view.height - 1, 0, rows, 0);
+  draw_off_screen(window);
+  const std::vector<std::uint8_t> rgb = off_screen_rgb(window);
   GreyPicture result(view.width, view.height);
-  for (int v = 0; v < view.height; ++v)
-    for (int u = 0; u < view.width; ++u)
-      result.pixels[result.index(u, v)] =
-          rows->GetValue(3 * (static_cast<vtkIdType>(view.height - 1 - v) * view.width + u));
+  for (std::size_t i = 0; i < result.pixels.size(); ++i) result.pixels[i] = rgb[3 * i];
   return result;
 }
 

@@ -1,5 +1,4 @@
 #include <vtkActor.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
@@ -7,7 +6,6 @@
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
-#include <vtkOpenGLState.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -21,15 +19,11 @@
 #include <cmath>
 
 #include "core/foundation/angle.h"
+#include "render/off_screen_vtk.h"
 #include "render/scene_view.h"
 
 namespace adit::render {
 namespace {
-
-// VTK asks by events whether the context that is current is its own: here it always is.
-void answer_yes(vtkObject*, unsigned long, void*, void* call) {
-  *static_cast<bool*>(call) = true;
-}
 
 vtkSmartPointer<vtkActor> actor_of(vtkPolyData* shape) {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -151,16 +145,8 @@ struct SceneView::Stage {
 };
 
 SceneView::SceneView(int width, int height) : stage_(std::make_unique<Stage>()) {
-  vtkNew<vtkCallbackCommand> yes;
-  yes->SetCallback(answer_yes);
   auto& window = *stage_->window;
-  window.AddObserver(vtkCommand::WindowIsCurrentEvent, yes);
-  window.AddObserver(vtkCommand::WindowSupportsOpenGLEvent, yes);
-  window.SetReadyForRendering(true);
-  window.InitializeFromCurrentContext();
-  window.SetMultiSamples(0);
-  window.SetShowWindow(false);
-  window.SetUseOffScreenBuffers(true);
+  begin_off_screen(window);
   window.SetSize(width, height);
   window.AddRenderer(stage_->renderer);
   stage_->renderer->SetNearClippingPlaneTolerance(0.0005);
@@ -207,10 +193,8 @@ int SceneView::height() const {
 }
 
 void SceneView::render() {
-  // Others draw in the same context, so what VTK remembers of its state is stale.
-  stage_->window->GetState()->Reset();
   stage_->renderer->ResetCameraClippingRange();
-  stage_->window->Render();
+  draw_off_screen(*stage_->window);
   stage_->drawn = true;
 }
 
@@ -221,13 +205,8 @@ unsigned int SceneView::texture() const {
 
 Picture SceneView::picture() const {
   Picture result = blank_picture(width(), height());
-  vtkNew<vtkUnsignedCharArray> rows;
-  stage_->window->GetPixelData(0, 0, result.width - 1, result.height - 1, 0, rows, 0);
-  for (int y = 0; y < result.height; ++y)
-    for (int x = 0; x < result.width; ++x) {
-      const auto at = 3 * (static_cast<vtkIdType>(result.height - 1 - y) * result.width + x);
-      result.set_pixel(x, y, {rows->GetValue(at), rows->GetValue(at + 1), rows->GetValue(at + 2), 255});
-    }
+  const std::vector<std::uint8_t> rgb = off_screen_rgb(*stage_->window);
+  for (std::size_t i = 0; i < rgb.size() / 3; ++i) std::copy_n(rgb.data() + 3 * i, 3, result.rgba.data() + 4 * i);
   return result;
 }
 

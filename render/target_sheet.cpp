@@ -92,7 +92,7 @@ PaperSize paper_size(const std::string& name) {
     if (size.name == name) return size;
     all += (all.empty() ? "" : ", ") + size.name;
   }
-  throw Error("there is no paper " + name, "--paper", "write one of: " + all);
+  throw Error("there is no paper " + name, {}, "write one of: " + all);
 }
 
 void draw_target(Canvas& canvas, const PaperPoint& centre, double diameter_mm, TargetCode code) {
@@ -116,7 +116,7 @@ std::string target_pages(const std::vector<int>& ids, double diameter_mm, const 
   const double width = paper.width_mm - 2.0 * margin_mm, height = paper.height_mm - 2.0 * margin_mm - foot_mm;
   const int columns = static_cast<int>(width / side), rows = static_cast<int>(height / (side + label_mm));
   if (columns < 1 || rows < 1)
-    throw Error("a target of " + fixed(diameter_mm, 0) + " mm does not fit on " + paper.name, "--size",
+    throw Error("a target of " + fixed(diameter_mm, 0) + " mm does not fit on " + paper.name, {},
                 "up to " + fixed(std::floor(std::min(width, height - label_mm) / coded_pattern::clear_radius), 0) +
                     " mm fit; use a larger paper for more");
   Canvas canvas = Canvas::pdf(paper.width_mm, paper.height_mm, title);
@@ -149,7 +149,7 @@ TargetBoard target_board(int first_id, int columns, int rows, double diameter_mm
   if (columns * side > width || rows * side > height)
     throw Error(std::to_string(columns) + " x " + std::to_string(rows) + " targets of " + fixed(diameter_mm, 0) +
                     " mm do not fit on " + paper.name,
-                "--board", "use a larger paper, or smaller or fewer targets");
+                {}, "use a larger paper, or smaller or fewer targets");
   TargetBoard board;
   Canvas canvas = Canvas::pdf(sheet.width_mm, sheet.height_mm, title);
   const PaperPoint step(std::floor(10.0 * width / columns) / 10.0, std::floor(10.0 * height / rows) / 10.0);

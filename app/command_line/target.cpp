@@ -10,14 +10,13 @@
 #include "core/georeference/coded_pattern.h"
 
 namespace adit::app {
-namespace {
 
-bool read_id(const std::string& word, int& id) {
+std::optional<int> target_id(std::string_view word) {
+  int id = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
-  return error == std::errc() && end == word.data() + word.size() && id >= 1 && id <= target_code_count;
+  const bool whole = error == std::errc() && end == word.data() + word.size();
+  return whole && id >= 1 && id <= target_code_count ? std::optional(id) : std::nullopt;
 }
-
-}  // namespace
 
 std::vector<int> ids_of(const std::string& words) {
   std::vector<int> ids;
@@ -26,14 +25,12 @@ std::vector<int> ids_of(const std::string& words) {
     const std::size_t comma = std::min(words.find(',', at), words.size());
     const std::string part = words.substr(at, comma - at);
     const std::size_t dash = part.find('-');
-    int first = 0, last = 0;
-    const bool good = dash == std::string::npos
-                          ? read_id(part, first)
-                          : read_id(part.substr(0, dash), first) && read_id(part.substr(dash + 1), last);
-    if (!good || (dash != std::string::npos && last < first))
+    const auto first = target_id(std::string_view(part).substr(0, dash));
+    const auto last = dash == std::string::npos ? first : target_id(std::string_view(part).substr(dash + 1));
+    if (!first || !last || *last < *first)
       throw Error("\"" + part + "\" names no ids", "--ids",
                   "write for instance 1-40,57; ids run from 1 to " + std::to_string(target_code_count));
-    for (int id = first; id <= std::max(first, last); ++id) ids.push_back(id);
+    for (int id = *first; id <= *last; ++id) ids.push_back(id);
     at = comma + 1;
   }
   std::sort(ids.begin(), ids.end());

@@ -1,7 +1,9 @@
 #pragma once
 // What the parts of adit target share.
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/command_line/command.h"
@@ -10,6 +12,20 @@ namespace adit::app {
 
 /// "1-40,57,60-62": each id once, in order. Throws Error for anything else.
 std::vector<int> ids_of(const std::string& words);
+
+/// The id of a target that a whole word is; nothing for other words.
+std::optional<int> target_id(std::string_view word);
+
+/// The work's result; an Error without a place gets this one.
+template <typename Work>
+auto with_place(const std::string& where, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (!error.where().empty()) throw;
+    throw Error(error.what_is_wrong(), where, error.mend());
+  }
+}
 
 /// "150mm", "15cm", "0.15m" in metres. Throws Error without a unit.
 double length_m_of(const std::string& words, const char* option);

@@ -1,9 +1,9 @@
 // adit target detect, locate, calibrate: what pictures of targets say.
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -48,11 +48,10 @@ DetectOptions detect_options(const std::string& ids, double focal_px) {
 std::map<int, Eigen::Vector3d> database_of(const std::string& file) {
   std::map<int, Eigen::Vector3d> places;
   for (const ControlPoint& point : io::read_control(file).points) {
-    int id = 0;
-    const auto [end, error] = std::from_chars(point.id.data(), point.id.data() + point.id.size(), id);
-    if (error != std::errc() || end != point.id.data() + point.id.size() || id < 1 || id > target_code_count) continue;
-    if (!places.emplace(id, point.position).second)
-      throw Error("target " + std::to_string(id) + " stands in it twice", file, "keep one of them");
+    const auto id = target_id(point.id);
+    if (!id) continue;
+    if (!places.emplace(*id, point.position).second)
+      throw Error("target " + std::to_string(*id) + " stands in it twice", file, "keep one of them");
   }
   if (places.empty())
     throw Error("it holds no coded target", file,
@@ -78,9 +77,9 @@ void for_each_image(const std::vector<std::string>& images, Progress& progress, 
   for (std::size_t i = 0; i < images.size(); ++i) {
     progress.step(i, images.size());
     try {
-      visit(images[i]);
+      with_place(images[i], [&] { visit(images[i]); });
     } catch (const Error& error) {
-      bad.errors.push_back(error.where().empty() ? Error(error.what_is_wrong(), images[i], error.mend()) : error);
+      bad.errors.push_back(error);
     }
   }
   if (!bad.errors.empty()) throw bad;
@@ -143,15 +142,10 @@ json pose_json(const std::string& image, const CameraPose& pose, const std::vect
   for (const LandmarkResidual& landmark : pose.landmarks) {
     json residual{{"id", std::stoi(landmark.id)},
                   {"residual_px", {landmark.residual_px.x(), landmark.residual_px.y()}}};
-    if (landmark.used)
-      one["used"].push_back(landmark.id);
-    else
-      one["rejected"].push_back(landmark.id);
+    one[landmark.used ? "used" : "rejected"].push_back(std::stoi(landmark.id));
     residual[landmark.used ? "normalised" : "beside_m"] = landmark.used ? landmark.normalised : landmark.across_m;
     one["targets"].push_back(residual);
   }
-  for (const char* key : {"used", "rejected"})
-    for (json& id : one[key]) id = std::stoi(id.get<std::string>());
   one["not_in_database"] = unknown;
   one["posit"] = {{"rms_px", pose.posit.rms_px}, {"iterations", pose.posit.iterations}, {"pose", json::array()}};
   for (int r = 0; r < 4; ++r)
@@ -201,7 +195,7 @@ int locate(const Arguments& arguments, const CommonOptions& common, Progress& pr
       list.push_back(pose_json(image, pose, unknown));
       if (!common.json) print_pose(image, pose);
       for (const Finding& finding : pose.findings) {
-        needs_a_person = needs_a_person || finding.severity == Severity::decision || finding.subject != "pose";
+        needs_a_person = needs_a_person || finding.severity == Severity::decision;
         if (!common.quiet)
           std::fprintf(stderr, "adit: %s: %s: %s; %s\n", image.c_str(), finding.subject.c_str(), finding.words.c_str(),
                        finding.mend.c_str());
@@ -216,6 +210,12 @@ int locate(const Arguments& arguments, const CommonOptions& common, Progress& pr
 }
 
 int calibrate(const Arguments& arguments, const CommonOptions& common, Progress& progress) {
+  std::error_code ignored;
+  for (const std::string& in : arguments.images)
+    if (std::filesystem::equivalent(in, arguments.out, ignored))
+      throw Error("this is one of the pictures", arguments.out, "choose another name for --out");
+  if (std::filesystem::equivalent(arguments.board, arguments.out, ignored))
+    throw Error("this is the board's table", arguments.out, "choose another name for --out");
   const std::map<int, Eigen::Vector3d> board = database_of(arguments.board);
   DetectOptions options;
   for (const auto& [id, place] : board) options.fit.codes.push_back(code_of_id(id));
@@ -234,20 +234,15 @@ int calibrate(const Arguments& arguments, const CommonOptions& common, Progress&
       one.sights.push_back({board.at(target.id), target.center});
     pictures.push_back(std::move(one));
   });
-  const CameraCalibration calibration = [&] {
-    try {
-      return calibrate_camera(pictures, width, height);
-    } catch (const Error& error) {
-      throw Error(error.what_is_wrong(), arguments.board, error.mend());
-    }
-  }();
+  const CameraCalibration calibration =
+      with_place(arguments.board, [&] { return calibrate_camera(pictures, width, height); });
   char note[120];
   std::snprintf(note, sizeof note, "adit target calibrate: %zu pictures, rms %.3f pixels", calibration.pictures.size(),
                 calibration.rms_px);
   io::write_file_atomically(arguments.out, io::camera_text(calibration.lens, note));
   bool doubtful = false;
   for (const Finding& finding : calibration.findings) {
-    doubtful = doubtful || finding.subject == "calibration";
+    doubtful = doubtful || finding.severity == Severity::decision;
     if (!common.quiet)
       std::fprintf(stderr, "adit: %s: %s; %s\n", finding.subject.c_str(), finding.words.c_str(), finding.mend.c_str());
   }

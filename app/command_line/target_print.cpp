@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/command_line/target.h"
 #include "app/version.h"
 #include "core/georeference/coded_pattern.h"
 #include "io/atomic_file.h"
+#include "io/text_file.h"
 #include "render/target_sheet.h"
 
 namespace adit::app {
@@ -45,10 +45,20 @@ std::string csv_of(const render::TargetBoard& board, int first_id) {
 int print_board(const Arguments& arguments, const std::vector<int>& ids, double diameter_mm,
                 const render::PaperSize& paper, const render::DocumentTitle& title, const CommonOptions& common) {
   const auto [columns, rows] = board_of(arguments.board);
-  const render::TargetBoard board = render::target_board(ids.front(), columns, rows, diameter_mm, paper, title);
+  if (ids.front() + columns * rows - 1 > target_code_count)
+    throw Error("there are not so many targets from " + std::to_string(ids.front()) + " on", "--ids",
+                "begin with a lower id");
+  const render::TargetBoard board = with_place("--board", [&, across = columns, down = rows] {
+    return render::target_board(ids.front(), across, down, diameter_mm, paper, title);
+  });
   const std::string table = std::filesystem::path(arguments.out).replace_extension(".csv").string();
+  const std::string csv = csv_of(board, ids.front());
+  // A name that nobody has typed must take the place of nothing.
+  if (std::filesystem::exists(table) && io::read_text_file(table) != csv)
+    throw Error("this is there already and holds something else; the board's table would take its place", table,
+                "choose another name for OUT, or remove it");
   io::write_file_atomically(arguments.out, board.pdf);
-  io::write_file_atomically(table, csv_of(board, ids.front()));
+  io::write_file_atomically(table, csv);
   if (!common.quiet)
     std::fprintf(stderr,
                  "adit: %s, and where its targets are in %s [m]; measure the print, and scale the table if it is off\n",
@@ -71,10 +81,13 @@ Action declare_target_print(CLI::App& command) {
     const std::vector<int> ids = ids_of(arguments->ids);
     const double diameter_mm = 1e3 * length_m_of(arguments->size, "--size");
     if (diameter_mm < 5.0) throw Error("a target of less than 5 mm", "--size", "state its unit, for instance 150mm");
-    const render::PaperSize paper = render::paper_size(arguments->paper);
+    if (std::filesystem::path(arguments->out).extension() != ".pdf")
+      throw Error("targets are printed to a PDF", arguments->out, "write a name that ends with .pdf");
+    const render::PaperSize paper = with_place("--paper", [&] { return render::paper_size(arguments->paper); });
     const render::DocumentTitle title{"Adit coded targets", std::string("Adit ") + version, "2000-01-01T00:00:00Z"};
     if (!arguments->board.empty()) return print_board(*arguments, ids, diameter_mm, paper, title, common);
-    io::write_file_atomically(arguments->out, render::target_pages(ids, diameter_mm, paper, title));
+    io::write_file_atomically(
+        arguments->out, with_place("--size", [&] { return render::target_pages(ids, diameter_mm, paper, title); }));
     if (!common.quiet && ids.back() > codes_differing_in(4))
       std::fprintf(stderr, "adit: ids above %d differ from others in fewer than four segments; lower ones are safer\n",
                    codes_differing_in(4));

@@ -37,8 +37,8 @@ struct CameraCalibration {
 };
 
 /// Focal lengths, principal point, k1, k2, p1, p2, k3 by OpenCV's bundle adjustment (Zhang 2000). Pictures with fewer
-/// than six targets are left out and named. Throws Error for fewer than four good pictures, and where the board was
-/// held square to the camera in all of them: then focal length and distance are one.
+/// than six targets are left out and named. Throws Error for fewer than four good pictures, where no camera fits to 2
+/// pixels, and where the board was held square to the camera in all of them: then focal length and distance are one.
 CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, int width, int height);
 
 }  // namespace adit

@@ -19,14 +19,14 @@ void judge(CameraCalibration& calibration, int width, int height, const std::vec
   if (calibration.rms_px > poor_rms_px) {
     std::snprintf(words, sizeof words, "the pictures fit to %.2f pixels (rms) only", calibration.rms_px);
     calibration.findings.push_back(
-        {Severity::warning, "calibration", words,
+        {Severity::decision, "calibration", words,
          "print the board on a stiff plane, measure it, and keep focus and zoom as they are"});
   }
   if (calibration.sigma_fx > poor_focal * calibration.lens.fx) {
     std::snprintf(words, sizeof words, "the focal length is known to %.1f %% only (one sigma)",
                   100.0 * calibration.sigma_fx / calibration.lens.fx);
     calibration.findings.push_back(
-        {Severity::warning, "calibration", words, "take more pictures, the board tilted to all sides"});
+        {Severity::decision, "calibration", words, "take more pictures, the board tilted to all sides"});
   }
   Eigen::AlignedBox2d box;
   for (const BoardPicture& picture : used)
@@ -35,7 +35,7 @@ void judge(CameraCalibration& calibration, int width, int height, const std::vec
   if (filled < least_filled) {
     std::snprintf(words, sizeof words, "the board was seen in %.0f %% of the picture only: the lens's rim is a guess",
                   100.0 * filled);
-    calibration.findings.push_back({Severity::warning, "calibration", words, "move the board into every corner"});
+    calibration.findings.push_back({Severity::decision, "calibration", words, "move the board into every corner"});
   }
 }
 
@@ -76,6 +76,13 @@ CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, in
   } catch (const cv::Exception&) {
     throw Error("no camera fits to these pictures", {},
                 "check that the board's coordinates are those of the printed one");
+  }
+  constexpr double no_camera_px = 2.0;
+  if (!(calibration.rms_px < no_camera_px)) {
+    char words[120];
+    std::snprintf(words, sizeof words, "no camera fits to these pictures: the best one leaves %.1f pixels (rms)",
+                  calibration.rms_px);
+    throw Error(words, {}, "check the board's table against the print, and that focus and zoom stayed as they were");
   }
   double most_tilt = 0.0;
   for (std::size_t i = 0; i < used.size(); ++i) {

@@ -39,8 +39,7 @@ struct Scene {
 };
 
 Scene scene_of(const CameraLens& lens, const std::vector<LandmarkSight>& sights, const CameraPoseOptions& options) {
-  Scene scene{lens, options, {}, {}, {}, {}, {}};
-  scene.middle.setZero();
+  Scene scene{lens, options, Eigen::Vector3d::Zero(), {}, {}, {}, {}};
   for (const LandmarkSight& sight : sights) scene.middle += sight.site / static_cast<double>(sights.size());
   for (const LandmarkSight& sight : sights) {
     const auto place = place_of(lens, sight.pixel);
@@ -59,6 +58,15 @@ double off_px(const Scene& scene, const Pose& camera_from_site, std::size_t i) {
   const Eigen::Vector3d at = camera_from_site * scene.points[i];
   if (at.z() <= 0.01) return std::numeric_limits<double>::infinity();
   return (pixel_of(scene.lens, at) - scene.pixels[i]).norm();
+}
+
+/// d pixel / d (turn, shift of the camera frame) of a point, seen after `turned` = rotation * point and the shift.
+Eigen::Matrix<double, 2, 6> sight_derivative(const CameraLens& lens, const Eigen::Vector3d& turned,
+                                             const Eigen::Vector3d& at) {
+  Eigen::Matrix<double, 3, 6> moves;
+  moves << 0.0, turned.z(), -turned.y(), 1.0, 0.0, 0.0, -turned.z(), 0.0, turned.x(), 0.0, 1.0, 0.0, turned.y(),
+      -turned.x(), 0.0, 0.0, 0.0, 1.0;
+  return pixel_derivative(lens, at) * moves;
 }
 
 struct Adjusted {
@@ -80,10 +88,7 @@ std::optional<Adjusted> adjust(const Scene& scene, const Pose& start, const Indi
       if (at.z() <= 0.01) return std::numeric_limits<double>::infinity();
       const double weight = 1.0 / std::pow(scene.sigma_px(i, at.z()), 2);
       const Eigen::Vector2d off = scene.pixels[i] - pixel_of(scene.lens, at);
-      Eigen::Matrix<double, 3, 6> moves;
-      moves << 0.0, turned.z(), -turned.y(), 1.0, 0.0, 0.0, -turned.z(), 0.0, turned.x(), 0.0, 1.0, 0.0, turned.y(),
-          -turned.x(), 0.0, 0.0, 0.0, 1.0;
-      const Eigen::Matrix<double, 2, 6> derivative = pixel_derivative(scene.lens, at) * moves;
+      const Eigen::Matrix<double, 2, 6> derivative = sight_derivative(scene.lens, turned, at);
       normal += weight * derivative.transpose() * derivative;
       right += weight * derivative.transpose() * off;
       cost += weight * off.squaredNorm();
@@ -217,10 +222,7 @@ Consensus consensus_of(const Scene& scene) {
 double normalised_residual(const Scene& scene, const Adjusted& adjusted, const Matrix6d& covariance, std::size_t i) {
   const Eigen::Vector3d turned = adjusted.camera_from_site.linear() * scene.points[i];
   const Eigen::Vector3d at = turned + adjusted.camera_from_site.translation();
-  Eigen::Matrix<double, 3, 6> moves;
-  moves << 0.0, turned.z(), -turned.y(), 1.0, 0.0, 0.0, -turned.z(), 0.0, turned.x(), 0.0, 1.0, 0.0, turned.y(),
-      -turned.x(), 0.0, 0.0, 0.0, 1.0;
-  const Eigen::Matrix<double, 2, 6> derivative = pixel_derivative(scene.lens, at) * moves;
+  const Eigen::Matrix<double, 2, 6> derivative = sight_derivative(scene.lens, turned, at);
   const double variance = std::pow(scene.sigma_px(i, at.z()), 2);
   const Eigen::Matrix2d left =
       variance * Eigen::Matrix2d::Identity() - derivative * covariance * derivative.transpose();
@@ -231,11 +233,73 @@ double normalised_residual(const Scene& scene, const Adjusted& adjusted, const M
   return worst;
 }
 
+/// The adjustment of those that agree, less what lies off by too many of its sigmas, one at a time.
+std::optional<Adjusted> adjusted_without_blunders(const Scene& scene, const Pose& start, Indices& used) {
+  std::optional<Adjusted> adjusted = adjust(scene, start, used);
+  while (adjusted && used.size() > least_targets) {
+    const Matrix6d covariance = adjusted->normal.inverse();
+    std::size_t worst = used.size();
+    double most = wrong_sigmas;
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      const double normalised = normalised_residual(scene, *adjusted, covariance, used[k]);
+      if (normalised > most) {
+        most = normalised;
+        worst = k;
+      }
+    }
+    if (worst == used.size()) break;
+    used.erase(used.begin() + static_cast<std::ptrdiff_t>(worst));
+    adjusted = adjust(scene, adjusted->camera_from_site, used);
+  }
+  return adjusted;
+}
+
+/// From the targets' middle to the site.
+Pose site_from_camera(const Scene& scene, const Pose& camera_from_middle) {
+  Pose camera_from_site = camera_from_middle;
+  camera_from_site.translation() -= camera_from_site.linear() * scene.middle;
+  return camera_from_site.inverse();
+}
+
+/// From turns and shifts of the camera frame to those of the camera in the site.
+Matrix6d covariance_in_site(const Adjusted& adjusted, double factor) {
+  const Eigen::Matrix3d back = adjusted.camera_from_site.linear().transpose();
+  const Eigen::Vector3d t = adjusted.camera_from_site.translation();
+  Eigen::Matrix3d cross;
+  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
+  Matrix6d change = Matrix6d::Zero();
+  change.topLeftCorner<3, 3>() = -back * cross;  // of the position -R^T t
+  change.topRightCorner<3, 3>() = -back;
+  change.bottomLeftCorner<3, 3>() = -back;
+  return factor * factor * change * adjusted.normal.inverse() * change.transpose();
+}
+
 /// How far beside its surveyed place the line of sight to a target passes.
 double beside_m(const Scene& scene, const Pose& camera_from_site, std::size_t i) {
   const Eigen::Vector3d at = camera_from_site * scene.points[i];
   const Eigen::Vector3d ray = Eigen::Vector3d(scene.places[i].x(), scene.places[i].y(), 1.0).normalized();
   return (at - ray * ray.dot(at)).norm();
+}
+
+void add_residuals(const Scene& scene, const Adjusted& adjusted, const std::vector<LandmarkSight>& sights,
+                   const Indices& used, CameraPose& result) {
+  const Matrix6d covariance = adjusted.normal.inverse();
+  double squares = 0.0;
+  for (std::size_t i = 0; i < sights.size(); ++i) {
+    LandmarkResidual one;
+    one.id = sights[i].id;
+    one.used = std::find(used.begin(), used.end(), i) != used.end();
+    const Eigen::Vector3d at = adjusted.camera_from_site * scene.points[i];
+    if (at.z() > 0.01) one.residual_px = scene.pixels[i] - pixel_of(scene.lens, at);
+    if (one.used) {
+      one.normalised = normalised_residual(scene, adjusted, covariance, i);
+      squares += one.residual_px.squaredNorm();
+    } else {
+      one.across_m = beside_m(scene, adjusted.camera_from_site, i);
+    }
+    result.landmarks.push_back(one);
+  }
+  result.rms_px = std::sqrt(squares / static_cast<double>(used.size()));
 }
 
 void name_left_out(const Scene& scene, const Adjusted& adjusted, const std::vector<LandmarkSight>& sights,
@@ -245,7 +309,7 @@ void name_left_out(const Scene& scene, const Adjusted& adjusted, const std::vect
     char words[200];
     std::snprintf(words, sizeof words, "is not used: it is seen %.3f m beside its surveyed place (%.1f pixels)",
                   beside_m(scene, adjusted.camera_from_site, i), off_px(scene, adjusted.camera_from_site, i));
-    result.findings.push_back({Severity::warning, "target " + sights[i].id, words,
+    result.findings.push_back({Severity::decision, "target " + sights[i].id, words,
                                "survey it again: it may have moved, or its id may be wrong in the database"});
   }
 }
@@ -294,64 +358,18 @@ CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight
         "no pose fits to four of the " + std::to_string(sights.size()) + " targets", {},
         "check their coordinates, that they do not hang on one line, and that the camera file is of this camera");
   Indices used = consensus.agreeing;
-  std::optional<Adjusted> adjusted = adjust(scene, consensus.pose, used);
-  while (adjusted) {
-    const Matrix6d covariance = adjusted->normal.inverse();
-    std::size_t worst = used.size();
-    double most = wrong_sigmas;
-    for (std::size_t k = 0; k < used.size(); ++k) {
-      const double normalised = normalised_residual(scene, *adjusted, covariance, used[k]);
-      if (normalised > most) {
-        most = normalised;
-        worst = k;
-      }
-    }
-    if (worst == used.size() || used.size() == least_targets) break;
-    used.erase(used.begin() + static_cast<std::ptrdiff_t>(worst));
-    adjusted = adjust(scene, adjusted->camera_from_site, used);
-  }
+  const std::optional<Adjusted> adjusted = adjusted_without_blunders(scene, consensus.pose, used);
   if (!adjusted) throw Error("the targets determine no pose", {}, "put up more targets, around the camera");
   CameraPose result;
-  const double redundancy = 2.0 * static_cast<double>(used.size()) - 6.0;
-  result.sigma_factor = std::sqrt(adjusted->cost / std::max(1.0, redundancy));
+  result.site_from_camera = site_from_camera(scene, adjusted->camera_from_site);
+  result.sigma_factor = std::sqrt(adjusted->cost / std::max(1.0, 2.0 * static_cast<double>(used.size()) - 6.0));
+  result.covariance = covariance_in_site(*adjusted, std::max(1.0, result.sigma_factor));
   result.flat = flatness(chosen(scene.points, used)) < flat_points;
-  Pose camera_from_site = adjusted->camera_from_site;
-  camera_from_site.translation() -= camera_from_site.linear() * scene.middle;
-  result.site_from_camera = camera_from_site.inverse();
-  // From turns and shifts of the camera frame to those of the camera in the site.
-  const Eigen::Matrix3d back = result.site_from_camera.linear();
-  const Eigen::Vector3d t = adjusted->camera_from_site.translation();
-  Eigen::Matrix3d cross;
-  cross << 0.0, -t.z(), t.y(), t.z(), 0.0, -t.x(), -t.y(), t.x(), 0.0;
-  Matrix6d change = Matrix6d::Zero();
-  change.topLeftCorner<3, 3>() = -back * cross;  // position -R^T t, of a turn
-  change.topRightCorner<3, 3>() = -back;
-  change.bottomLeftCorner<3, 3>() = -back;
-  const double factor = std::max(1.0, result.sigma_factor);
-  result.covariance = factor * factor * change * adjusted->normal.inverse() * change.transpose();
-  const Matrix6d covariance = adjusted->normal.inverse();
-  double squares = 0.0;
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    LandmarkResidual one;
-    one.id = sights[i].id;
-    one.used = std::find(used.begin(), used.end(), i) != used.end();
-    const Eigen::Vector3d at = adjusted->camera_from_site * scene.points[i];
-    if (at.z() > 0.01) one.residual_px = scene.pixels[i] - pixel_of(lens, at);
-    if (one.used) {
-      one.normalised = normalised_residual(scene, *adjusted, covariance, i);
-      squares += one.residual_px.squaredNorm();
-    } else {
-      one.across_m = beside_m(scene, adjusted->camera_from_site, i);
-    }
-    result.landmarks.push_back(one);
-  }
-  result.rms_px = std::sqrt(squares / static_cast<double>(used.size()));
+  add_residuals(scene, *adjusted, sights, used, result);
   const auto raw = posit(chosen(scene.points, used), chosen(scene.places, used));
-  if (!raw.empty()) {
-    Pose pose = raw.front().camera_from_site;
-    pose.translation() -= pose.linear() * scene.middle;
-    result.posit = {pose.inverse(), raw.front().rms * lens.focal_px(), raw.front().iterations};
-  }
+  if (!raw.empty())
+    result.posit = {site_from_camera(scene, raw.front().camera_from_site), raw.front().rms * lens.focal_px(),
+                    raw.front().iterations};
   name_left_out(scene, *adjusted, sights, used, result);
   judge(scene, *adjusted, used, result);
   return result;

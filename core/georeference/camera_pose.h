@@ -34,7 +34,7 @@ struct LandmarkResidual {
   std::string id;
   bool used = true;
   Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();
-  double normalised = 0.0;  ///< length over its sigma, of those used
+  double normalised = 0.0;  ///< over its sigma, the worse axis, of those used
   double across_m = 0.0;    ///< of those not used: how far beside its surveyed place the line of sight passes
 };
 
@@ -60,8 +60,8 @@ struct CameraPose {
 
 /// Consensus: poses of subsets of four (all of them, or 400 drawn ones) by POSIT; the one that most targets fit, then a
 /// least squares adjustment of the pixels, weighed by the sigmas of target, landmark and lens. What lies off by more
-/// than four of its sigmas is left out, one at a time, and named. Throws Error for fewer than four targets, targets on
-/// one line, or where no pose fits to four of them.
+/// than four of its sigmas is left out, one at a time, and is a decision. Throws Error for fewer than four targets,
+/// targets on one line, or where no pose fits to four of them.
 CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight>& sights,
                          const CameraPoseOptions& options);
 

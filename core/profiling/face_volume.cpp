@@ -212,17 +212,17 @@ FaceVolume volume_between(const FaceMap& before, const FaceMap& after, const Dev
       std::hypot(before_along_sigma_m, after_along_sigma_m, std::sqrt(2.0) * options.range_bias_sigma_m);
   const double guessed_m = face_m2 > 0.0 ? std::sqrt(guessed_variance_m6) / face_m2 : 0.0;
   volume.sigma_advance_m = std::hypot(along_m, guessed_m);
-  // The contour: as of the best known rows, as many as lie between the faces, and what was taken from others.
-  const std::size_t from_row = row_of(volume.from_m), to_row = row_of(volume.to_m), count = to_row - from_row + 1;
-  std::size_t known_rows = 0;
-  for (std::size_t r = from_row; r <= to_row; ++r) known_rows += contours.known[r] != 0 ? 1 : 0;
-  volume.contour_share = static_cast<double>(known_rows) / static_cast<double>(count);
+  const std::size_t from_row = row_of(volume.from_m), count = row_of(volume.to_m) - from_row + 1;
+  const auto known = std::count(contours.known.begin() + static_cast<std::ptrdiff_t>(from_row),
+                                contours.known.begin() + static_cast<std::ptrdiff_t>(from_row + count), 1);
+  volume.contour_share = static_cast<double>(known) / static_cast<double>(count);
+  // As of the best known rows, as many as lie between the faces, and what was taken from others.
   const double best_from_m = map.row_chainage(contours.best_known(count)) - 0.5 * map.step_s_m;
-  const double seen_m3 =
-      volume_sigma_m3(map, design, line, best_from_m, best_from_m + static_cast<double>(count) * map.step_s_m,
-                      VolumePart::excavated, registration, options);
+  const double length_m = static_cast<double>(count) * map.step_s_m;
+  const double seen_m3 = volume_sigma_m3(map, design, line, best_from_m, best_from_m + length_m, VolumePart::excavated,
+                                         registration, options);
   const double design_m2 = volume.design_m3 / std::max(1e-6, volume.to_m - volume.from_m);
-  const double taken_m3 = contours.area_spread_m2(design_m2) * static_cast<double>(count - known_rows) * map.step_s_m;
+  const double taken_m3 = contours.area_spread_m2(design_m2) * (1.0 - volume.contour_share) * length_m;
   const double contour_m3 = std::hypot(seen_m3, taken_m3);
   volume.sigma_m3 = std::sqrt(std::pow(face_m2 * along_m, 2) + guessed_variance_m6 + contour_m3 * contour_m3);
   return volume;

@@ -214,6 +214,9 @@ TEST(CalibrateCamera, TooFewAndSquarePicturesAreRefused) {
   const CameraLens lens = lens_of();
   EXPECT_THROW(calibrate_camera(board_pictures(lens, 3, 0.7, 0.05), lens.width, lens.height), Error);
   EXPECT_THROW(calibrate_camera(board_pictures(lens, 12, 0.0, 0.05), lens.width, lens.height), Error);
+  auto other_board = board_pictures(lens, 12, 0.7, 0.05);
+  for (BoardPicture& picture : other_board) std::swap(picture.sights.front().pixel, picture.sights.back().pixel);
+  EXPECT_THROW(calibrate_camera(other_board, lens.width, lens.height), Error) << "not the printed one";
 }
 
 TEST(CameraPose, TooLittleIsRefusedAndDoubtIsSaid) {
