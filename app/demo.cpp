@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/demo_pictures.h"
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "core/foundation/random.h"
@@ -106,8 +107,13 @@ Pose true_pose(const Demo& demo, int station) {
   const double s = first_station_m + station_spacing_m * station;
   const double x = (station % 2 == 0 ? -0.7 : 0.8) + 0.2 * random.uniform(0, -1, 1);
   const Eigen::Vector3d position = demo.tunnel.design().alignment().to_site({s, x, 1.65 + 0.1 * random.uniform(1)});
-  return make_pose(position, {random.uniform(2, -pi, pi), rad_from_deg(random.uniform(3, -0.5, 0.5)),
-                              rad_from_deg(random.uniform(4, -0.5, 0.5))});
+  double yaw_rad = random.uniform(2, -pi, pi);
+  if (demo.options.pictures_in) {  // a camera is turned to where it sees most
+    const Eigen::Vector2d ahead = demo.tunnel.design().alignment().horizontal().at(s).tangent();
+    yaw_rad = std::atan2(ahead.y(), ahead.x()) + 0.04 * yaw_rad;
+  }
+  return make_pose(position,
+                   {yaw_rad, rad_from_deg(random.uniform(3, -0.5, 0.5)), rad_from_deg(random.uniform(4, -0.5, 0.5))});
 }
 
 /// The true pose moved and turned by exactly the guess errors, in a random direction.
@@ -244,7 +250,8 @@ Job demo_job(const Demo& demo, const std::vector<Pose>& poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string name = "S" + std::to_string(i + 1);
     const Pose guess = guessed_pose(demo, poses[i], static_cast<int>(i));
-    job.scans.push_back({name, "scans/" + name + ".ply", 0, guess.translation() + demo.origin, yaw_pitch_roll(guess)});
+    job.scans.push_back(
+        {name, "scans/" + name + ".ply", 0, guess.translation() + demo.origin, yaw_pitch_roll(guess), {}});
   }
   if (demo.options.control) {
     job.control = "control.csv";
@@ -265,6 +272,16 @@ Job demo_job(const Demo& demo, const std::vector<Pose>& poses) {
   const double face_m = demo.tunnel.options().face_m;
   job.rounds.push_back({number, face_m - round_length_m, face_m, round_length_m + 0.2});
   return job;
+}
+
+void take_pictures(const Demo& demo, const std::vector<Pose>& poses, const fs::path& folder, Job& job,
+                   Progress& progress) {
+  const auto context = demo.options.pictures_in();
+  context->make_current();
+  Progress taking = progress.part(0.2, "taking pictures");
+  write_demo_pictures({demo.tunnel, demo.origin, demo.stretch.from_m + 4.0, demo.tunnel.options().face_m - 1.0, poses,
+                       demo.options.seed},
+                      folder, job, taking);
 }
 
 Truth demo_truth(const Demo& demo, const std::vector<Pose>& poses, Progress& progress) {
@@ -312,7 +329,7 @@ void make_demo(const fs::path& folder, const DemoOptions& options, Progress& pro
   fs::remove(folder / "job.json", error);
   fs::create_directories(folder / "scans", error);
   io::remove_leftovers(folder / "scans");
-  Progress scanning = progress.part(0.9, "scanning");
+  Progress scanning = progress.part(options.pictures_in ? 0.7 : 0.9, "scanning");
   for (int i = 0; i < options.stations; ++i) {
     Progress part = scanning.part(1.0 / options.stations, "scanning");
     write_scan(demo, poses[static_cast<std::size_t>(i)], i, folder, part);
@@ -320,7 +337,9 @@ void make_demo(const fs::path& folder, const DemoOptions& options, Progress& pro
   io::write_file_atomically(folder / "axis.xml", io::landxml_text(demo.axis));
   io::write_dxf_profile(folder / "profile.dxf", demo.tunnel.profile());
   if (options.control) write_control(demo, poses, folder);
-  io::write_file_atomically(folder / "job.json", io::job_text(demo_job(demo, poses)));
+  Job job = demo_job(demo, poses);
+  if (options.pictures_in) take_pictures(demo, poses, folder, job, progress);
+  io::write_file_atomically(folder / "job.json", io::job_text(job));
 }
 
 }  // namespace adit::app

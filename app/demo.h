@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 
 #include "core/foundation/progress.h"
+#include "render/gl_context.h"
 
 namespace adit::app {
 
@@ -19,12 +22,16 @@ struct DemoOptions {
   double north_m = 6998765.0;
   double elevation_m = 412.0;
   bool control = true;  ///< write control.csv and targets.csv
+  /// Hang coded targets, fix a camera to the scanner and take a picture at each station; the scanners then look along
+  /// the tunnel. Empty: none. The context is made once, to draw in.
+  std::function<std::unique_ptr<render::GlContext>()> pictures_in;
   int rounds_back = 0;  ///< the face stands so many rounds (of 4 m) back
   std::string before;   ///< folder of an earlier demo of the same seed, as the job names it; empty: none
 };
 
 /// Writes scans/, axis.xml, profile.dxf, control.csv, targets.csv, truth.json and job.json into the folder (made when
-/// absent). Throws Error when the folder holds something that is not a demo.
+/// absent); with pictures camera.yaml, landmarks.csv and pictures/, too. Throws Error when the folder holds something
+/// that is not a demo.
 void make_demo(const std::filesystem::path& folder, const DemoOptions& options, Progress& progress);
 
 }  // namespace adit::app

@@ -7,6 +7,7 @@
 #include "core/foundation/error.h"
 #include "core/foundation/options.h"
 #include "core/foundation/parallel.h"
+#include "io/camera_file.h"
 #include "io/job_json.h"
 #include "io/read_axis.h"
 #include "io/read_control.h"
@@ -25,12 +26,16 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> files_of(const Job& job) {
   std::vector<std::string> files;
-  for (const JobScan& scan : job.scans) files.push_back(scan.file);
+  for (const JobScan& scan : job.scans) {
+    files.push_back(scan.file);
+    for (const JobPicture& picture : scan.pictures) files.push_back(picture.file);
+  }
+  for (const JobCamera& camera : job.cameras) files.push_back(camera.file);
   for (const JobProfile& profile : job.profiles)
     if (!profile.file.empty()) files.push_back(profile.file);
   if (job.rings) files.push_back(job.rings->file);
   if (job.tolerances && !job.tolerances->file.empty()) files.push_back(job.tolerances->file);
-  for (const std::string* file : {&job.control, &job.targets, &job.alignment})
+  for (const std::string* file : {&job.control, &job.targets, &job.alignment, &job.landmarks.file})
     if (!file->empty()) files.push_back(*file);
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
@@ -210,6 +215,8 @@ JobState open_job(const fs::path& job_file, const fs::path& out, Progress& progr
   read_rings(state);
   read_tolerances(state);
   if (earlier == Earlier::looked_at) look_at_before(state, progress);
+  for (const JobCamera& camera : state.job.cameras) state.lenses.push_back(io::read_camera(state.folder / camera.file));
+  if (!state.job.landmarks.file.empty()) state.landmarks = read_landmarks(state.folder / state.job.landmarks.file);
   if (!state.job.targets.empty()) state.targets = io::read_targets_csv(state.folder / state.job.targets);
   look_at_cant(state);
   check_job(state);

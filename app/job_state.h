@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "app/landmarks.h"
 #include "core/design/design_tunnel.h"
+#include "core/georeference/camera_lens.h"
 #include "core/georeference/control.h"
 #include "core/job/job.h"
 #include "core/job/results.h"
@@ -36,6 +38,8 @@ struct JobState {
   std::vector<ProfileFrom> profiles;
   std::vector<ControlPoint> control;
   std::vector<TargetObservation> targets;
+  std::vector<CameraLens> lenses;  ///< of the job's cameras
+  Landmarks landmarks;
   std::vector<RingPoint> ring_points;
   std::optional<ToleranceSet> tolerances;
   std::string before_key;      ///< of the earlier job's poses, as its last run left them

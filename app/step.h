@@ -35,6 +35,7 @@ struct Step {
 };
 
 Step import_step();
+Step targets_step();
 Step register_step();
 Step surface_step();
 Step profile_step();

@@ -36,6 +36,16 @@ GreyPicture read_grey_picture(const std::filesystem::path& path) {
   return picture;
 }
 
+GreyPicture read_grey_picture(const std::filesystem::path& path, const std::optional<CameraLens>& lens) {
+  GreyPicture picture = read_grey_picture(path);
+  if (lens && (picture.width != lens->width || picture.height != lens->height))
+    throw Error("the picture has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                    " pixels, the camera file is for " + std::to_string(lens->width) + " x " +
+                    std::to_string(lens->height),
+                path.string(), "name the file of the camera that took it, at this size");
+  return picture;
+}
+
 std::string png_of(const GreyPicture& picture) {
   std::vector<unsigned char> bytes;
   const cv::Mat grey(picture.height, picture.width, CV_8U, const_cast<std::uint8_t*>(picture.pixels.data()));

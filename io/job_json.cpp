@@ -6,6 +6,7 @@
 #include "core/foundation/error.h"
 #include "io/existing_file.h"
 #include "io/job_design_json.h"
+#include "io/job_targets_json.h"
 #include "io/json_place.h"
 #include "io/options_json.h"
 #include "io/text_place.h"
@@ -24,7 +25,7 @@ Eigen::Vector3d vector3(const JsonPlace& place) {
 }
 
 JobScan read_scan(const JsonPlace& place, const fs::path& folder) {
-  place.only_keys({"name", "file", "scan", "pose"});
+  place.only_keys({"name", "file", "scan", "pose", "pictures"});
   JobScan scan;
   scan.name = place.at("name").text();
   if (scan.name.empty()) place.at("name").refuse("a scan needs a name", "write one, for instance S1");
@@ -36,6 +37,7 @@ JobScan read_scan(const JsonPlace& place, const fs::path& folder) {
       place.at("scan").refuse("scans of a file are counted from 1", "write the number of the scan");
     scan.number = static_cast<int>(number);
   }
+  if (place.has("pictures")) scan.pictures = read_job_pictures(place.at("pictures"), folder);
   if (!place.has("pose")) return scan;
   const JsonPlace pose = place.at("pose");
   pose.only_keys({"position", "yaw_pitch_roll_deg"});
@@ -104,10 +106,11 @@ Job read_job(const fs::path& file) {
   const json root = parse_json_file(file);
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const JsonPlace place(root, file.string());
-  place.only_keys({"adit",      "name",           "client",          "surveyor",   "scans",  "control", "targets",
-                   "alignment", "alignment_name", "alignment_start", "profile",    "cant",   "lines",   "chainage",
-                   "rounds",    "drive",          "zones",           "tolerances", "before", "face",    "straightedge",
-                   "sections",  "sectors",        "swell",           "rings",      "options"});
+  place.only_keys({"adit",    "name",      "client",         "surveyor",        "scans",   "control",
+                   "targets", "alignment", "alignment_name", "alignment_start", "profile", "cant",
+                   "lines",   "chainage",  "rounds",         "drive",           "zones",   "tolerances",
+                   "before",  "face",      "straightedge",   "sections",        "sectors", "swell",
+                   "rings",   "cameras",   "landmarks",      "options"});
   if (place.at("adit").whole_number() != 1)
     place.at("adit").refuse("this version reads jobs of format 1", "use the version of Adit that wrote the job");
   Job job;
@@ -121,9 +124,10 @@ Job read_job(const fs::path& file) {
     check_names(job, place.at("scans"));
   }
   if (place.has("control")) job.control = existing_file(place.at("control"), folder);
-  if (place.has("targets")) job.targets = existing_file(place.at("targets"), folder);
-  if (!job.targets.empty() && job.control.empty())
+  if (place.has("targets")) read_job_targets(place.at("targets"), folder, job);
+  if (place.has("targets") && job.control.empty())
     place.refuse("\"targets\" without \"control\"", "name the control file, too");
+  read_job_cameras(place, folder, job);
   if (place.has("alignment")) job.alignment = existing_file(place.at("alignment"), folder);
   job.alignment_name = place.text_or("alignment_name", "");
   if (place.has("alignment_start")) job.alignment_start_m = place.at("alignment_start").number_between(-1e6, 1e7, "m");
@@ -157,10 +161,12 @@ std::string job_text(const Job& job) {
       one["pose"]["yaw_pitch_roll_deg"] = {deg_from_rad(scan.angles.yaw_rad), deg_from_rad(scan.angles.pitch_rad),
                                            deg_from_rad(scan.angles.roll_rad)};
     }
+    if (!scan.pictures.empty()) one["pictures"] = pictures_json(scan.pictures);
     root["scans"].push_back(one);
   }
   if (!job.control.empty()) root["control"] = job.control;
-  if (!job.targets.empty()) root["targets"] = job.targets;
+  add_job_targets(job, root);
+  add_job_cameras(job, root);
   if (!job.alignment.empty()) root["alignment"] = job.alignment;
   if (!job.alignment_name.empty()) root["alignment_name"] = job.alignment_name;
   if (job.alignment_start_m) root["alignment_start"] = *job.alignment_start_m;

@@ -50,6 +50,42 @@ json findings_json(const Findings& findings) {
   return list;
 }
 
+json picture_json(const PictureResult& picture, const ProjectOrigin& origin) {
+  Pose site_from_camera = picture.local_from_camera;
+  site_from_camera.translation() = origin.to_site(site_from_camera.translation());
+  const Eigen::Vector3d &left = picture.residual_m, turned = 1e3 * deg_from_rad(1.0) * picture.turned_rad;
+  json one{{"picture", picture.picture}, {"scan", picture.scan}, {"camera", picture.camera}, {"used", picture.used}};
+  one["targets"] = picture.targets;
+  one["rejected"] = picture.rejected;
+  one["not_surveyed"] = picture.unknown;
+  one["pose"] = picture.located ? rows(site_from_camera) : json(nullptr);
+  if (!picture.located) return one;
+  one["rms_px"] = picture.rms_px;
+  one["sigma_mm"] = 1e3 * picture.sigma_m;
+  one["sigma_mdeg"] = 1e3 * deg_from_rad(picture.sigma_rad);
+  one["residual_mm"] = {1e3 * left.x(), 1e3 * left.y(), 1e3 * left.z()};
+  one["residual_mdeg"] = {turned.x(), turned.y(), turned.z()};
+  one["normalised"] = picture.normalised;
+  return one;
+}
+
+json found_targets_json(const std::vector<FoundTarget>& found) {
+  json list = json::array();
+  for (const FoundTarget& target : found) {
+    const char* kind = target.kind == TargetKind::sphere     ? "sphere"
+                       : target.kind == TargetKind::quarters ? "quarters"
+                                                             : "coded";
+    list.push_back({{"scan", target.scan},
+                    {"kind", kind},
+                    {"id", target.id.empty() ? json(nullptr) : json(target.id)},
+                    {"position", {target.position.x(), target.position.y(), target.position.z()}},
+                    {"sigma_mm", 1e3 * target.sigma_m},
+                    {"size_m", target.size_m},
+                    {"pixels", target.pixels}});
+  }
+  return list;
+}
+
 json registration_json(const Results& results) {
   const RegistrationResult& registration = results.registration;
   json out;
@@ -102,6 +138,7 @@ json registration_json(const Results& results) {
                             {"before_mdeg", 1e3 * deg_from_rad(loop.before_rad)},
                             {"after_mm", 1e3 * loop.after_m},
                             {"after_mdeg", 1e3 * deg_from_rad(loop.after_rad)}});
+  if (!results.targets.found.empty()) out["found_targets"] = found_targets_json(results.targets.found);
   out["control"] = json::array();
   for (const ControlResidual& c : registration.control)
     out["control"].push_back({{"scan", c.scan},
@@ -110,6 +147,18 @@ json registration_json(const Results& results) {
                               {"redundancy", c.used ? json(c.redundancy) : json(nullptr)},
                               {"normalised", c.used ? json(c.normalised) : json(nullptr)},
                               {"used", c.used}});
+  if (!registration.cameras.empty()) {
+    out["pictures"] = json::array();
+    for (const PictureResult& picture : registration.pictures)
+      out["pictures"].push_back(picture_json(picture, results.import.origin));
+    out["cameras"] = json::array();
+    for (const CameraResult& camera : registration.cameras)
+      out["cameras"].push_back({{"camera", camera.camera},
+                                {"scan_from_camera", rows(camera.scan_from_camera)},
+                                {"moved_mm", 1e3 * camera.moved_m},
+                                {"moved_mdeg", 1e3 * deg_from_rad(camera.moved_rad)},
+                                {"normalised", camera.normalised}});
+  }
   out["in_site"] = registration.in_site;
   out["datum_scan"] = registration.datum_scan.empty() ? json(nullptr) : json(registration.datum_scan);
   out["datum_sigma_mm"] = registration.in_site ? json(1e3 * registration.datum_sigma_m) : json(nullptr);

@@ -64,8 +64,18 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PairResult, source, target, target_from_sourc
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoopClosure, scans, before_m, before_rad, after_m, after_rad)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlacedScan, name, placed, local_from_scan, sigma, placed_by, undetermined)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlResidual, scan, id, residual_m, used, redundancy, normalised)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RegistrationResult, accepted, scans, pairs, loops, control, control_rms_m,
-                                   sigma_factor, datum_sigma_m, datum_scan, in_site, findings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PictureResult, scan, picture, camera, located, used, local_from_camera, sigma_m,
+                                   sigma_rad, residual_m, turned_rad, normalised, targets, rejected, unknown, rms_px)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CameraSight, scan, picture, camera, local_from_camera, covariance)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LocatedPicture, result, sight)
+NLOHMANN_JSON_SERIALIZE_ENUM(TargetKind, {{TargetKind::sphere, "sphere"},
+                                          {TargetKind::quarters, "quarters"},
+                                          {TargetKind::coded, "coded"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FoundTarget, scan, kind, id, position, sigma_m, size_m, pixels)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TargetsResult, found, pictures, findings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CameraResult, camera, scan_from_camera, moved_m, moved_rad, normalised)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RegistrationResult, accepted, scans, pairs, loops, control, control_rms_m, pictures,
+                                   cameras, sigma_factor, datum_sigma_m, datum_scan, in_site, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(VolumeAmounts, design_m3, excavated_m3, overbreak_m3, underbreak_m3)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SectorVolume, name, surface_m2, measured_m2, overbreak_m3, underbreak_m3,
                                    max_overbreak_m, max_overbreak_chainage_m, max_overbreak_clock_deg)
@@ -170,6 +180,10 @@ std::string step_text(const ImportResult& result) {
   return nlohmann::json(result).dump(1);
 }
 
+std::string step_text(const TargetsResult& result) {
+  return nlohmann::json(result).dump(1);
+}
+
 std::string step_text(const RegistrationResult& result) {
   RegistrationResult copy = result;
   swap_numbers(copy, true);
@@ -208,6 +222,10 @@ std::string step_text(const VolumeResult& result) {
 }
 
 void read_step_text(const std::string& text, ImportResult& result) {
+  read(text, result);
+}
+
+void read_step_text(const std::string& text, TargetsResult& result) {
   read(text, result);
 }
 

@@ -34,6 +34,7 @@ Action declare_demo(CLI::App& command) {
     std::string folder;
     DemoOptions demo;
     bool no_control = false;
+    bool pictures = false;
     bool before = false;
     bool no_run = false;
   };
@@ -55,10 +56,13 @@ Action declare_demo(CLI::App& command) {
       ->check(CLI::Range(0.0, 180.0))
       ->capture_default_str();
   command.add_flag("--no-control", arguments->no_control, "no control points and targets");
+  command.add_flag("--pictures", arguments->pictures,
+                   "a camera on the scanner, coded targets on the walls and a picture at each station");
   command.add_flag("--before", arguments->before, "an earlier job, a round back, in DIR/before, to be compared with");
   command.add_flag("--no-run", arguments->no_run, "make the job only");
   return [arguments](const CommonOptions& common, Progress& progress) {
     arguments->demo.control = !arguments->no_control;
+    if (arguments->pictures) arguments->demo.pictures_in = [] { return render::make_osmesa_context(); };
     Progress making = progress.part(0.3, "making the job");
     make_with_earlier(arguments->folder, arguments->demo, arguments->before, making);
     if (arguments->no_run) {

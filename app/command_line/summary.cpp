@@ -45,6 +45,12 @@ void add_registration(std::string& text, const Results& results) {
   if (!registration.control.empty())
     add(text, "  control: %td of %zu targets used, rms %.1f mm per axis\n", used, registration.control.size(),
         1e3 * registration.control_rms_m);
+  for (const PictureResult& picture : registration.pictures) {
+    if (!picture.located) continue;
+    add(text, "  picture %s: %zu targets, %.1f mm and %.3f degrees from the rest%s\n", picture.picture.c_str(),
+        picture.targets.size(), 1e3 * picture.residual_m.norm(), deg_from_rad(picture.turned_rad.norm()),
+        picture.used ? "" : " (not used)");
+  }
 }
 
 void add_volumes(std::string& text, const VolumeResult& result) {

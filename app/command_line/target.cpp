@@ -7,16 +7,10 @@
 #include <cmath>
 #include <memory>
 
+#include "app/landmarks.h"
 #include "core/georeference/coded_pattern.h"
 
 namespace adit::app {
-
-std::optional<int> target_id(std::string_view word) {
-  int id = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), id);
-  const bool whole = error == std::errc() && end == word.data() + word.size();
-  return whole && id >= 1 && id <= target_code_count ? std::optional(id) : std::nullopt;
-}
 
 std::vector<int> ids_of(const std::string& words) {
   std::vector<int> ids;

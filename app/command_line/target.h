@@ -13,9 +13,6 @@ namespace adit::app {
 /// "1-40,57,60-62": each id once, in order. Throws Error for anything else.
 std::vector<int> ids_of(const std::string& words);
 
-/// The id of a target that a whole word is; nothing for other words.
-std::optional<int> target_id(std::string_view word);
-
 /// The work's result; an Error without a place gets this one.
 template <typename Work>
 auto with_place(const std::string& where, const Work& work) {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/command_line/target.h"
+#include "app/landmarks.h"
 #include "core/foundation/angle.h"
 #include "core/georeference/calibrate_camera.h"
 #include "core/georeference/camera_pose.h"
@@ -18,7 +18,6 @@
 #include "io/camera_file.h"
 #include "io/csv_rows.h"
 #include "io/grey_picture_file.h"
-#include "io/read_control.h"
 #include "io/text_place.h"
 
 namespace adit::app {
@@ -42,32 +41,6 @@ DetectOptions detect_options(const std::string& ids, double focal_px) {
   if (!ids.empty())
     for (const int id : ids_of(ids)) options.fit.codes.push_back(code_of_id(id));
   return options;
-}
-
-/// Coordinates of coded targets by their id; points of other names are passed over.
-std::map<int, Eigen::Vector3d> database_of(const std::string& file) {
-  std::map<int, Eigen::Vector3d> places;
-  for (const ControlPoint& point : io::read_control(file).points) {
-    const auto id = target_id(point.id);
-    if (!id) continue;
-    if (!places.emplace(*id, point.position).second)
-      throw Error("target " + std::to_string(*id) + " stands in it twice", file, "keep one of them");
-  }
-  if (places.empty())
-    throw Error("it holds no coded target", file,
-                "write id,east,north,elevation with ids from 1 to " + std::to_string(target_code_count));
-  return places;
-}
-
-/// A picture read with the camera's size, if there is a camera.
-GreyPicture picture_of(const std::string& image, const std::optional<CameraLens>& lens) {
-  GreyPicture picture = io::read_grey_picture(image);
-  if (lens && (picture.width != lens->width || picture.height != lens->height))
-    throw Error("the picture has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
-                    " pixels, the camera file is for " + std::to_string(lens->width) + " x " +
-                    std::to_string(lens->height),
-                image, "name the file of the camera that took it, at this size");
-  return picture;
 }
 
 /// Calls visit(image) for each; goes on after those that cannot be read and throws them all at the end.
@@ -108,7 +81,7 @@ int detect(const Arguments& arguments, const CommonOptions& common, Progress& pr
   };
   try {
     for_each_image(arguments.images, progress, [&](const std::string& image) {
-      const std::vector<DetectedTarget> targets = detect_targets(picture_of(image, lens), options, progress);
+      const std::vector<DetectedTarget> targets = detect_targets(io::read_grey_picture(image, lens), options, progress);
       if (!common.json && list.empty()) std::printf("image,id,u,v,diameter_px,sigma_px\n");
       json one{{"image", image}, {"targets", json::array()}};
       for (const DetectedTarget& target : targets) {
@@ -171,7 +144,7 @@ void print_pose(const std::string& image, const CameraPose& pose) {
 
 int locate(const Arguments& arguments, const CommonOptions& common, Progress& progress) {
   const std::optional<CameraLens> lens = io::read_camera(arguments.camera);
-  const std::map<int, Eigen::Vector3d> database = database_of(arguments.database);
+  const Landmarks database = read_landmarks(arguments.database);
   // Every code may be read: a target that is not in the database must not be taken for one that is.
   const DetectOptions options = detect_options(arguments.ids, lens->focal_px());
   json list = json::array();
@@ -184,7 +157,7 @@ int locate(const Arguments& arguments, const CommonOptions& common, Progress& pr
     for_each_image(arguments.images, progress, [&](const std::string& image) {
       std::vector<LandmarkSight> sights;
       std::vector<int> unknown;
-      for (const DetectedTarget& target : detect_targets(picture_of(image, lens), options, progress)) {
+      for (const DetectedTarget& target : detect_targets(io::read_grey_picture(image, lens), options, progress)) {
         const auto found = database.find(target.id);
         if (found == database.end())
           unknown.push_back(target.id);
@@ -216,7 +189,7 @@ int calibrate(const Arguments& arguments, const CommonOptions& common, Progress&
       throw Error("this is one of the pictures", arguments.out, "choose another name for --out");
   if (std::filesystem::equivalent(arguments.board, arguments.out, ignored))
     throw Error("this is the board's table", arguments.out, "choose another name for --out");
-  const std::map<int, Eigen::Vector3d> board = database_of(arguments.board);
+  const Landmarks board = read_landmarks(arguments.board);
   DetectOptions options;
   for (const auto& [id, place] : board) options.fit.codes.push_back(code_of_id(id));
   std::vector<BoardPicture> pictures;

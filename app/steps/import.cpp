@@ -187,6 +187,7 @@ ProjectOrigin origin_of(const JobState& state) {
     if (!store->offset().isZero()) return origin_near(store->offset());
   }
   if (!state.control.empty()) return origin_near(state.control.front().position);
+  if (!state.landmarks.empty()) return origin_near(state.landmarks.begin()->second);
   if (!state.ring_points.empty()) return origin_near(state.ring_points.front().place.position);
   if (state.alignment) return origin_near(state.alignment->to_site({state.stretch().from_m, 0.0, 0.0}));
   return {};

@@ -3,8 +3,10 @@
 #include <chrono>
 #include <cstdio>
 
+#include "app/locate_pictures.h"
 #include "app/placed_tiles.h"
 #include "app/scan_places.h"
+#include "app/site_guess.h"
 #include "app/step.h"
 #include "core/foundation/error.h"
 #include "core/geometry/bounding_box.h"
@@ -20,7 +22,7 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "register 8|" + state.keys.at("import");
+  std::string text = "register 9|" + state.keys.at("import");
   for (const JobScan& scan : state.job.scans) {
     if (!scan.position) continue;
     for (const double value : {scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,
@@ -28,18 +30,11 @@ std::string depends_on(const JobState& state) {
       text += "," + short_number(value);
     text += "|" + scan.name;
   }
+  if (const auto targets = state.keys.find("targets"); targets != state.keys.end()) text += "|" + targets->second;
   for (const std::string* file : {&state.job.control, &state.job.targets, &state.job.alignment})
     if (!file->empty()) text += "|" + state.input_sha256.at(*file);
   return text + "|" + state.job.alignment_name + "|" + options_text(state.job.options.registration) + "|" +
          options_text(state.job.options.registration.icp);
-}
-
-/// site-from-file of a scan before registration: the job's word, the file's own, or coordinates that are the site's.
-std::optional<Pose> site_from_file_guess(const JobScan& scan, const io::PointStore& store) {
-  if (scan.position) return make_pose(*scan.position, scan.angles);
-  if (store.file_pose()) return store.file_pose();
-  if (!scanner_at_origin(store)) return Pose::Identity();
-  return std::nullopt;
 }
 
 ScanToPlace scan_to_place(const JobState& state, std::size_t index) {
@@ -48,11 +43,16 @@ ScanToPlace scan_to_place(const JobState& state, std::size_t index) {
   scan.name = state.job.scans[index].name;
   scan.points = store;
   scan.scanner_at_origin = scanner_at_origin(*store);
-  if (auto guess = site_from_file_guess(state.job.scans[index], *store)) {
-    guess->translation() += guess->linear() * store->offset() - state.results.import.origin.position;
-    scan.local_from_scan_guess = guess;
-  }
+  scan.local_from_scan_guess = local_from_scan_guess(state, index);
   return scan;
+}
+
+/// Those of the file, and those found in the scans that are control points. Coordinates of the scans' files.
+std::vector<TargetObservation> targets_of(const JobState& state) {
+  std::vector<TargetObservation> targets = state.targets;
+  for (const FoundTarget& found : state.results.targets.found)
+    if (!found.id.empty()) targets.push_back({found.scan, found.id, found.position, found.sigma_m});
+  return targets;
 }
 
 RegistrationContext context_of(const JobState& state) {
@@ -62,7 +62,12 @@ RegistrationContext context_of(const JobState& state) {
     point.position = origin.to_local(point.position);
     context.control.push_back(point);
   }
-  context.targets = state.targets;
+  context.targets = targets_of(state);
+  for (const JobCamera& camera : state.job.cameras)
+    context.cameras.push_back(
+        {camera.name, lever_arm(camera.position, camera.angles), camera.sigma_m, camera.sigma_rad});
+  for (const LocatedPicture& picture : state.results.targets.pictures)
+    if (picture.result.located) context.pictures.push_back(picture.sight);
   context.clock_s = [] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
@@ -122,7 +127,9 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   check_targets_in_scans(state);
   std::vector<ScanToPlace> scans;
   for (std::size_t i = 0; i < state.stores.size(); ++i) scans.push_back(scan_to_place(state, i));
-  state.results.registration = register_scans(scans, context_of(state), state.job.options.registration, progress);
+  RegistrationResult& result = state.results.registration;
+  result = register_scans(scans, context_of(state), state.job.options.registration, progress);
+  result.pictures = with_adjusted(state.results.targets.pictures, result.pictures);
   stand_in_site_or_alone(state);
   for (Finding& finding : scans_beside_axis(state)) {
     state.results.registration.findings.push_back(std::move(finding));

@@ -22,6 +22,7 @@ struct TargetObservation {
   std::string scan;
   std::string id;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  double sigma_m = 0.0;  ///< of each coordinate, beside that of all targets
 };
 
 /// What is left of a target after the adjustment: observed minus control, site axes [m].

@@ -21,12 +21,44 @@
 
 namespace adit {
 
+/// A picture that a camera on the scanner took during a scan.
+struct JobPicture {
+  std::string file;    ///< relative to the job's folder
+  std::string camera;  ///< empty: the only one
+};
+
+/// A camera fixed to the scanner.
+struct JobCamera {
+  std::string name;
+  std::string file;                                    ///< its calibration
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the scanner's frame: its centre of projection
+  YawPitchRoll angles;                                 ///< of lever_arm
+  double sigma_m = 0.002;
+  double sigma_rad = 0.0005;
+};
+
+/// Coded targets in the tunnel.
+struct JobLandmarks {
+  std::string file;        ///< empty: none
+  double sigma_m = 0.003;  ///< of each coordinate
+  bool no_others = false;  ///< none but these hang there, so that partly hidden ones can be read, too
+};
+
+/// Targets to be looked for in the scans.
+struct JobScanTargets {
+  double sphere_diameter_m = 0.0;  ///< 0: no spheres
+  bool quarters = false;
+  bool coded = false;
+  bool any() const { return sphere_diameter_m > 0.0 || quarters || coded; }
+};
+
 struct JobScan {
   std::string name;
   std::string file;                         ///< relative to the job's folder
   int number = 0;                           ///< which scan of the file, from 1; 0: the only one
   std::optional<Eigen::Vector3d> position;  ///< site, guess
   YawPitchRoll angles;
+  std::vector<JobPicture> pictures;
 };
 
 /// A file, or a profile of the library.
@@ -106,6 +138,9 @@ struct Job {
   std::vector<JobScan> scans;
   std::string control;  ///< files; empty: none
   std::string targets;
+  JobScanTargets scan_targets;
+  std::vector<JobCamera> cameras;
+  JobLandmarks landmarks;
   std::string alignment;
   std::string alignment_name;               ///< when the file holds several
   std::optional<double> alignment_start_m;  ///< chainage of its first point, for formats that state none

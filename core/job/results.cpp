@@ -15,6 +15,7 @@ Pose site_from_scan(const Results& results, std::size_t scan) {
 Findings all_findings(const Results& results) {
   Findings all = results.import.findings;
   const auto add = [&](const Findings& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add(results.targets.findings);
   add(results.registration.findings);
   if (results.surface) add(results.surface->findings);
   if (results.profile) add(results.profile->findings);

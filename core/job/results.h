@@ -9,6 +9,7 @@
 
 #include "core/foundation/finding.h"
 #include "core/georeference/project_origin.h"
+#include "core/georeference/scan_targets.h"
 #include "core/profiling/clearance.h"
 #include "core/profiling/face_volume.h"
 #include "core/profiling/map_change.h"
@@ -41,6 +42,29 @@ struct ImportResult {
   std::vector<InputRecord> inputs;
   std::vector<ImportedScan> scans;
   ProjectOrigin origin;
+  Findings findings;
+};
+
+/// A target that was found in a scan, and the control point it is.
+struct FoundTarget {
+  std::string scan;
+  TargetKind kind = TargetKind::sphere;
+  std::string id;                                      ///< of its control point; empty: none
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the coordinates of the scan's file
+  double sigma_m = 0.0;
+  double size_m = 0.0;
+  int pixels = 0;
+};
+
+/// What one picture says, before the adjustment. Local frame.
+struct LocatedPicture {
+  PictureResult result;
+  CameraSight sight;  ///< where result.located
+};
+
+struct TargetsResult {
+  std::vector<FoundTarget> found;
+  std::vector<LocatedPicture> pictures;  ///< in the job's order
   Findings findings;
 };
 
@@ -112,6 +136,7 @@ struct StepTime {
 struct Results {
   std::string version;
   ImportResult import;
+  TargetsResult targets;
   RegistrationResult registration;
   std::optional<SurfaceResult> surface;
   std::optional<ProfileResult> profile;

@@ -17,11 +17,13 @@ struct Suspect {
     pair,         ///< one pair of scans
     observation,  ///< one target in one scan
     point,        ///< a control point: its targets in all scans
-    scan          ///< all targets of a scan
+    scan,         ///< all targets of a scan
+    sight         ///< where a picture says its camera stood
   };
   Kind kind = Kind::pair;
   std::vector<std::size_t> pairs;
   std::vector<std::size_t> control;
+  std::vector<std::size_t> sights;
 };
 
 /// One contradiction among the observations.
@@ -35,15 +37,17 @@ struct Adjustment {
   PoseGraphResult solved;
   std::vector<bool> pair_used;     ///< of the graph's pairs
   std::vector<bool> control_used;  ///< of the graph's control
+  std::vector<bool> sight_used;    ///< of the graph's sights
   std::vector<Contradiction> contradictions;
 };
 
-/// The graph of what is used: pairs and control in their order, less those left out.
+/// The graph of what is used: pairs, control and sights in their order, less those left out.
 PoseGraph used_part(const PoseGraph& graph, const Adjustment& adjustment);
 
-/// Solves the graph. While observations contradict each other (a pair twenty of its own sigmas off, a target five),
-/// every suspect is left out in turn (data snooping by trial, after Baarda 1968), and the one whose absence explains
-/// most goes for good; unless another explains as much, or too little control would be left. Deterministic.
+/// Solves the graph. While observations contradict each other (a pair twenty of its own sigmas off, a target five, a
+/// sight seven), every suspect is left out in turn (data snooping by trial, after Baarda 1968), and the one whose
+/// absence explains most goes for good; unless another explains as much, or too little control would be left.
+/// Deterministic.
 Adjustment adjusted(const PoseGraph& graph, Progress& progress);
 
 }  // namespace adit

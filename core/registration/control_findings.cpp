@@ -30,23 +30,24 @@ Eigen::Matrix3d redundancy_of(const Pose& local_from_scan, const Matrix6d& covar
 /// The direction of a target that least else checks.
 struct LeastChecked {
   std::string target;
+  double sigma_m = 0.0;  ///< its own
   double redundancy = 1.0;
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
 };
 
-void keep_least(LeastChecked& least, const std::string& target, const Eigen::Matrix3d& redundancy) {
+void keep_least(LeastChecked& least, const std::string& target, double sigma_m, const Eigen::Matrix3d& redundancy) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(redundancy);
   if (solver.eigenvalues()[0] >= least.redundancy) return;
-  least = {target, solver.eigenvalues()[0], solver.eigenvectors().col(0)};
+  least = {target, sigma_m, solver.eigenvalues()[0], solver.eigenvectors().col(0)};
 }
 
 /// What is not found by Baarda's test (4.13 sigmas for 0.1 % and 80 %) is less than this.
-void report_least_checked(const LeastChecked& least, double sigma_m, Findings& findings) {
+void report_least_checked(const LeastChecked& least, Findings& findings) {
   if (least.redundancy >= hardly_checked) return;
   Eigen::Index axis = 0;
   least.direction.cwiseAbs().maxCoeff(&axis);
   const char* const words_of[] = {"east", "north", "height"};
-  const double hidden_m = 4.13 * sigma_m / std::sqrt(std::max(least.redundancy, least_redundancy));
+  const double hidden_m = 4.13 * least.sigma_m / std::sqrt(std::max(least.redundancy, least_redundancy));
   char words[200];
   std::snprintf(words, sizeof words,
                 "hardly anything else checks its %s (redundancy %.2f): an error of %.0f mm and more there may not be "
@@ -103,7 +104,7 @@ CommonMove common_move(const RegistrationResult& result, const std::vector<Node>
 }  // namespace
 
 void report_control(RegistrationResult& result, const Adjustment& adjustment, const PoseGraphResult& solved,
-                    const PoseGraph& graph, const std::vector<Node>& nodes, const RegistrationOptions& options) {
+                    const PoseGraph& graph, const std::vector<Node>& nodes) {
   std::vector<double> components;
   LeastChecked least;
   for (std::size_t k = 0; k < graph.control.size(); ++k) {
@@ -114,18 +115,18 @@ void report_control(RegistrationResult& result, const Adjustment& adjustment, co
     if (!adjustment.control_used[k]) continue;
     for (const double component : residual) components.push_back(component);
     ControlResidual& reported = result.control.back();
+    const double sigma_m = graph.sigma_of_m(control);
     const Eigen::Matrix3d of_errors =
         redundancy_of(solved.local_from_scan[control.node], solved.covariance[control.node], control.in_scan,
-                      residual.norm(), options.control_sigma_m);
-    keep_least(least, control.id, of_errors);
+                      residual.norm(), sigma_m);
+    keep_least(least, control.id, sigma_m, of_errors);
     const Eigen::Vector3d redundancy = of_errors.diagonal().cwiseMax(0.0).cwiseMin(1.0);
     reported.redundancy = redundancy.mean();
-    const Eigen::Vector3d in_sigmas =
-        residual.array() / (options.control_sigma_m * redundancy.array().max(least_redundancy).sqrt());
+    const Eigen::Vector3d in_sigmas = residual.array() / (sigma_m * redundancy.array().max(least_redundancy).sqrt());
     reported.normalised = std::max(in_sigmas.cwiseAbs().maxCoeff(), 8.0 / 9.0 * in_sigmas.norm());
     if (reported.normalised > wrong_normalised) report_blunder(name, reported, result.findings);
   }
-  report_least_checked(least, options.control_sigma_m, result.findings);
+  report_least_checked(least, result.findings);
   result.control_rms_m = components.empty() ? 0.0 : root_mean_square(components);
   // The test of the whole (Baarda 1968): what is wrong a little everywhere fails no test of one target.
   constexpr double most_factor = 1.5;
@@ -141,7 +142,7 @@ void report_control(RegistrationResult& result, const Adjustment& adjustment, co
 void compare_guesses_with_control(RegistrationResult& result, const std::vector<Node>& nodes,
                                   const RegistrationOptions& options) {
   constexpr std::size_t most_alone = 4;  // guesses from one plan share its errors: their mean is no better than of four
-  const bool controlled = std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return !n.control.empty(); });
+  const bool controlled = std::any_of(nodes.begin(), nodes.end(), [](const Node& n) { return n.is_tied(); });
   const CommonMove common = common_move(result, nodes, options);
   if (!controlled || common.scans < 2) return;
   const double loose = 3.0 / std::sqrt(static_cast<double>(std::min(common.scans, most_alone)));

@@ -1,5 +1,7 @@
 #include "core/registration/nodes.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <exception>
 #include <map>
@@ -21,9 +23,32 @@ std::map<std::string, Eigen::Vector3d> control_by_id(const RegistrationContext& 
   return by_id;
 }
 
-/// Where a scan stands before any other is looked at: its guess, or the rigid fit of its targets to control.
-std::optional<Node> known_node(const ScanToPlace& scan, const std::vector<GraphControl>& control) {
+/// Information about (rotation, translation) from a covariance of (position, turns).
+Matrix6d information_of(const CameraSight& sight) {
+  Matrix6d covariance;
+  covariance << sight.covariance.bottomRightCorner<3, 3>(), sight.covariance.bottomLeftCorner<3, 3>(),
+      sight.covariance.topRightCorner<3, 3>(), sight.covariance.topLeftCorner<3, 3>();
+  return covariance.inverse();
+}
+
+/// The sight that knows best how the scan is turned.
+const CameraSight* best_sight(const std::string& scan, const RegistrationContext& context) {
+  const CameraSight* best = nullptr;
+  for (const CameraSight& sight : context.pictures)
+    if (sight.scan == scan && (best == nullptr || sight.covariance.trace() < best->covariance.trace())) best = &sight;
+  return best;
+}
+
+/// Where a scan stands before any other is looked at: as its picture says, its guess, or the rigid fit of its targets
+/// to control.
+std::optional<Node> known_node(const ScanToPlace& scan, const std::vector<GraphControl>& control,
+                               const RegistrationContext& context) {
   Node node;
+  if (const CameraSight* sight = best_sight(scan.name, context)) {
+    node.start = sight->local_from_camera * context.cameras[sight->camera].scan_from_camera.inverse();
+    node.by = Node::By::control;
+    return node;
+  }
   if (scan.local_from_scan_guess) {
     node.start = *scan.local_from_scan_guess;
     node.by = Node::By::guess;
@@ -53,6 +78,10 @@ void check_targets(const std::vector<ScanToPlace>& scans, const RegistrationCont
       throw Error("target " + target.id + " belongs to scan \"" + target.scan + "\", which the job does not have",
                   "targets", "use the names of the job's scans");
   }
+  for (const CameraSight& sight : context.pictures)
+    if (names.count(sight.scan) == 0 || sight.camera >= context.cameras.size())
+      throw Error("picture " + sight.picture + " belongs to no scan and camera of the job", "pictures",
+                  "use the names of the job's scans and cameras");
   for (const auto& target : context.targets) {
     if (by_id.count(target.id) == 0)
       throw Error("target " + target.id + " of scan " + target.scan + " has no control point", "targets",
@@ -64,8 +93,15 @@ std::vector<GraphControl> control_of(const std::string& scan, const Registration
   const auto by_id = control_by_id(context);
   std::vector<GraphControl> control;
   for (const auto& target : context.targets)
-    if (target.scan == scan) control.push_back({0, target.id, target.position, by_id.at(target.id)});
+    if (target.scan == scan) control.push_back({0, target.id, target.position, by_id.at(target.id), target.sigma_m});
   return control;
+}
+
+std::vector<GraphSight> sights_of(const std::string& scan, const RegistrationContext& context) {
+  std::vector<GraphSight> sights;
+  for (const CameraSight& sight : context.pictures)
+    if (sight.scan == scan) sights.push_back({0, sight.camera, sight.local_from_camera, information_of(sight)});
+  return sights;
 }
 
 PreparedScans prepare_scans(const std::vector<ScanToPlace>& scans, const RegistrationOptions& options,
@@ -106,7 +142,7 @@ std::vector<Node> starting_nodes(const std::vector<ScanToPlace>& scans, const Pr
   std::vector<std::optional<Node>> known;
   std::vector<std::optional<Pose>> poses;
   for (const std::size_t i : prepared.of) {
-    known.push_back(known_node(scans[i], control_of(scans[i].name, context)));
+    known.push_back(known_node(scans[i], control_of(scans[i].name, context), context));
     poses.push_back(known.back() ? std::optional<Pose>(known.back()->start) : std::nullopt);
   }
   const std::vector<StartingPlace> places = place_scans(prepared.scans, poses, options, progress);
@@ -115,7 +151,7 @@ std::vector<Node> starting_nodes(const std::vector<ScanToPlace>& scans, const Pr
     const std::string& name = scans[prepared.of[i]].name;
     if (!places[i].local_from_scan) {
       findings.push_back({Severity::decision, "scan " + name,
-                          "not placed: it has no guess and too few targets, and " + places[i].why_not,
+                          "not placed: it has no guess, no picture and too few targets, and " + places[i].why_not,
                           "give it a pose in job.json, survey three targets, or scan from a station between"});
       continue;
     }
@@ -124,6 +160,7 @@ std::vector<Node> starting_nodes(const std::vector<ScanToPlace>& scans, const Pr
     node.prepared = &prepared.scans[i];
     node.start = *places[i].local_from_scan;
     node.control = control_of(name, context);
+    node.sights = sights_of(name, context);
     nodes.push_back(node);
   }
   return nodes;

@@ -15,15 +15,22 @@ inline constexpr std::size_t least_targets = 3;  ///< place a scan without anyth
 struct Node {
   std::size_t scan = 0;  ///< index into the caller's scans
   const PreparedScan* prepared = nullptr;
-  Pose start = Pose::Identity();  ///< local_from_scan
-  enum class By { guess, control, search } by = By::search;
+  Pose start = Pose::Identity();                             ///< local_from_scan
+  enum class By { guess, control, search } by = By::search;  ///< control: or pictures
   std::vector<GraphControl> control;
+  std::vector<GraphSight> sights;
+
+  bool is_tied() const { return !control.empty() || !sights.empty(); }
+  /// Whether its targets or pictures alone say where it stands.
+  bool is_placed() const { return control.size() >= least_targets || !sights.empty(); }
 };
 
-/// Throws Error when there is no scan, and for targets without a scan or a control point.
+/// Throws Error when there is no scan, and for targets and pictures without a scan, a control point or a camera.
 void check_targets(const std::vector<ScanToPlace>& scans, const RegistrationContext& context);
 /// The targets of a scan with their control points; the node is 0.
 std::vector<GraphControl> control_of(const std::string& scan, const RegistrationContext& context);
+/// The pictures of a scan; the node is 0.
+std::vector<GraphSight> sights_of(const std::string& scan, const RegistrationContext& context);
 
 /// Those scans of the caller's that have enough points, in their order.
 struct PreparedScans {

@@ -105,6 +105,30 @@ struct ControlCost {
   }
 };
 
+struct SightCost {
+  Pose scan_start, camera_start, measured;
+  Matrix6d root;  ///< root^T root = information
+
+  template <typename T>
+  Eigen::Matrix<T, 6, 1> error(const T* scan, const T* camera) const {
+    const Eigen::Quaternion<T> local_from_scan = turned(scan, scan_start);
+    const Eigen::Quaternion<T> turn = local_from_scan * turned(camera, camera_start);
+    Eigen::Matrix<T, 6, 1> off;
+    off.template head<3>() =
+        rotation_vector_of<T>(turn * Eigen::Quaterniond(measured.linear()).conjugate().template cast<T>());
+    off.template tail<3>() =
+        local_from_scan * moved(camera, camera_start) + moved(scan, scan_start) - measured.translation().cast<T>();
+    return off;
+  }
+
+  template <typename T>
+  bool operator()(const T* scan, const T* camera, T* residual) const {
+    Eigen::Map<Eigen::Matrix<T, 6, 1>> out(residual);
+    out = root.cast<T>() * error(scan, camera);
+    return true;
+  }
+};
+
 /// root with root^T root = matrix, also for singular matrices.
 Matrix6d square_root(const Matrix6d& matrix) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(matrix);
@@ -125,9 +149,11 @@ class CancelCheck : public ceres::IterationCallback {
 
 struct Problem {
   std::vector<Block> blocks;
+  std::vector<Block> cameras;
   Block move{};  ///< of all guesses, about the datum
   ceres::Problem ceres;
   std::vector<PairCost> pairs;
+  std::vector<SightCost> sights;
 };
 
 void add_guess(Problem& problem, const PoseGraph& graph, std::size_t node) {
@@ -147,6 +173,22 @@ void add_guess(Problem& problem, const PoseGraph& graph, std::size_t node) {
       nullptr, block, problem.move.data());
 }
 
+void add_sights(Problem& problem, const PoseGraph& graph) {
+  problem.cameras.assign(graph.cameras.size(), Block{});
+  for (std::size_t i = 0; i < graph.cameras.size(); ++i)
+    problem.ceres.AddResidualBlock(new ceres::AutoDiffCostFunction<GuessCost, 6, 6>(
+                                       new GuessCost{graph.cameras[i].sigma_rad, graph.cameras[i].sigma_m}),
+                                   nullptr, problem.cameras[i].data());
+  for (const GraphSight& sight : graph.sights) {
+    const SightCost cost{graph.local_from_scan[sight.node], graph.cameras[sight.camera].scan_from_camera,
+                         sight.local_from_camera, square_root(sight.information)};
+    problem.sights.push_back(cost);
+    problem.ceres.AddResidualBlock(new ceres::AutoDiffCostFunction<SightCost, 6, 6, 6>(new SightCost(cost)),
+                                   new ceres::HuberLoss(5.0), problem.blocks[sight.node].data(),
+                                   problem.cameras[sight.camera].data());
+  }
+}
+
 void build(Problem& problem, const PoseGraph& graph) {
   problem.blocks.assign(graph.local_from_scan.size(), Block{});
   for (auto& block : problem.blocks) problem.ceres.AddParameterBlock(block.data(), 6);
@@ -161,8 +203,9 @@ void build(Problem& problem, const PoseGraph& graph) {
   }
   for (const GraphControl& c : graph.control)
     problem.ceres.AddResidualBlock(new ceres::AutoDiffCostFunction<ControlCost, 3, 6>(new ControlCost{
-                                       graph.local_from_scan[c.node], c.in_scan, c.in_local, graph.control_sigma_m}),
+                                       graph.local_from_scan[c.node], c.in_scan, c.in_local, graph.sigma_of_m(c)}),
                                    new ceres::HuberLoss(4.0), problem.blocks[c.node].data());
+  add_sights(problem, graph);
   if (graph.datum) problem.ceres.SetParameterBlockConstant(problem.blocks[*graph.datum].data());
 }
 
@@ -266,14 +309,33 @@ Pose moved_by(const Block& move, const Eigen::Vector3d& pivot) {
   return pose;
 }
 
+Pose pose_of(const Block& block, const Pose& start) {
+  Pose pose = Pose::Identity();
+  pose.linear() = turned(block.data(), start).normalized().toRotationMatrix();
+  pose.translation() = moved(block.data(), start);
+  return pose;
+}
+
+void read_cameras(const Problem& problem, const PoseGraph& graph, PoseGraphResult& result) {
+  for (std::size_t i = 0; i < graph.cameras.size(); ++i) {
+    const GraphCamera& camera = graph.cameras[i];
+    const Eigen::Map<const Vector6d> move(problem.cameras[i].data());
+    result.scan_from_camera.push_back(pose_of(problem.cameras[i], camera.scan_from_camera));
+    result.camera_misfit.push_back(move.head<3>().squaredNorm() / (camera.sigma_rad * camera.sigma_rad) +
+                                   move.tail<3>().squaredNorm() / (camera.sigma_m * camera.sigma_m));
+  }
+  for (std::size_t k = 0; k < graph.sights.size(); ++k) {
+    const Vector6d off = problem.sights[k].error(problem.blocks[graph.sights[k].node].data(),
+                                                 problem.cameras[graph.sights[k].camera].data());
+    result.sight_residual.emplace_back(-off);
+    result.sight_misfit.push_back(off.dot(graph.sights[k].information * off));
+  }
+}
+
 PoseGraphResult result_of(const Problem& problem, const PoseGraph& graph) {
   PoseGraphResult result;
-  for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
-    Pose pose = Pose::Identity();
-    pose.linear() = turned(problem.blocks[i].data(), graph.local_from_scan[i]).normalized().toRotationMatrix();
-    pose.translation() = moved(problem.blocks[i].data(), graph.local_from_scan[i]);
-    result.local_from_scan.push_back(pose);
-  }
+  for (std::size_t i = 0; i < problem.blocks.size(); ++i)
+    result.local_from_scan.push_back(pose_of(problem.blocks[i], graph.local_from_scan[i]));
   for (std::size_t k = 0; k < graph.pairs.size(); ++k) {
     Vector6d residual;
     problem.pairs[k](problem.blocks[graph.pairs[k].target].data(), problem.blocks[graph.pairs[k].source].data(),
@@ -282,6 +344,7 @@ PoseGraphResult result_of(const Problem& problem, const PoseGraph& graph) {
   }
   for (const GraphControl& c : graph.control)
     result.control_residual_m.emplace_back(result.local_from_scan[c.node] * c.in_scan - c.in_local);
+  read_cameras(problem, graph, result);
   if (graph.datum)
     result.moved_from_guesses = moved_by(problem.move, graph.local_from_scan[*graph.datum].translation());
   return result;

@@ -13,6 +13,7 @@
 #include "core/registration/joint_refinement.h"
 #include "core/registration/loops.h"
 #include "core/registration/observability.h"
+#include "core/registration/picture_findings.h"
 #include "core/registration/registration_findings.h"
 #include "core/registration/scan_pairs.h"
 #include "core/registration/wrong_guesses.h"
@@ -21,7 +22,8 @@ namespace adit {
 namespace {
 
 PoseGraph graph_of(const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
-                   const std::vector<PairResult>& pairs, const RegistrationOptions& options) {
+                   const std::vector<PairResult>& pairs, const RegistrationContext& context,
+                   const RegistrationOptions& options) {
   PoseGraph graph;
   graph.guess_sigma_m = options.guess_sigma_m;
   graph.guess_sigma_rad = rad_from_deg(options.guess_sigma_deg);
@@ -34,8 +36,14 @@ PoseGraph graph_of(const std::vector<Node>& nodes, const std::vector<Candidate>&
       control.node = i;
       graph.control.push_back(control);
     }
+    for (GraphSight sight : nodes[i].sights) {
+      sight.node = i;
+      graph.sights.push_back(sight);
+    }
   }
-  if (graph.control.empty()) graph.datum = datum == nodes.end() ? 0 : static_cast<std::size_t>(datum - nodes.begin());
+  for (const RigCamera& camera : context.cameras)
+    graph.cameras.push_back({camera.scan_from_camera, camera.sigma_m, camera.sigma_rad});
+  if (!graph.is_tied()) graph.datum = datum == nodes.end() ? 0 : static_cast<std::size_t>(datum - nodes.begin());
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (pairs[k].used)
       graph.pairs.push_back(
@@ -43,16 +51,16 @@ PoseGraph graph_of(const std::vector<Node>& nodes, const std::vector<Candidate>&
   return graph;
 }
 
-/// Nodes that pairs or control tie to the datum.
+/// Nodes that pairs, control or pictures tie to the datum.
 std::vector<bool> tied_nodes(const std::vector<Node>& nodes, const std::vector<Candidate>& candidates,
                              const std::vector<PairResult>& pairs, std::optional<std::size_t> datum) {
   std::vector<bool> tied(nodes.size(), false);
-  bool any_control = false;
+  bool any_placed = false;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    tied[i] = nodes[i].control.size() >= least_targets;
-    any_control = any_control || tied[i];
+    tied[i] = nodes[i].is_placed();
+    any_placed = any_placed || tied[i];
   }
-  if (!any_control) tied[datum.value_or(0)] = true;
+  if (!any_placed) tied[datum.value_or(0)] = true;
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -83,12 +91,15 @@ std::vector<std::size_t> groups_of(std::size_t nodes, const std::vector<Candidat
 }
 
 std::string how_placed(const Node& node, bool has_pairs, bool is_datum) {
-  const bool control = !node.control.empty();
-  if (has_pairs && control) return "clouds and control";
-  if (is_datum) return "datum";
-  if (has_pairs) return "clouds";
-  if (node.control.size() >= least_targets) return "control";
-  return "guess";
+  const bool control = has_pairs ? !node.control.empty() : node.control.size() >= least_targets;
+  if (is_datum && !control) return "datum";
+  std::vector<std::string> by;
+  if (has_pairs) by.emplace_back("clouds");
+  if (control) by.emplace_back("control");
+  if (!node.sights.empty()) by.emplace_back("pictures");
+  if (by.size() == 3) return "clouds, control and pictures";
+  if (by.size() == 2) return by[0] + " and " + by[1];
+  return by.empty() ? "guess" : by[0];
 }
 
 /// What nothing ties has a sigma as large as numbers go: 100 m and 180 degrees say the same.
@@ -134,7 +145,7 @@ int known_directions(const GraphPair& pair) {
 /// Observations less unknowns. A scan that nothing ties has no unknowns, one that little ties not all six: it checks
 /// nothing, and so it must not make the others look better known.
 int redundancy_of(const PoseGraph& used) {
-  int observations = 3 * static_cast<int>(used.control.size());
+  int observations = 3 * static_cast<int>(used.control.size()) + 6 * static_cast<int>(used.sights.size());
   std::vector<int> of_node(used.local_from_scan.size(), 0);
   for (const GraphPair& pair : used.pairs) {
     const int known = known_directions(pair);
@@ -143,6 +154,7 @@ int redundancy_of(const PoseGraph& used) {
     of_node[pair.target] += known;
   }
   for (const GraphControl& control : used.control) of_node[control.node] += 3;
+  for (const GraphSight& sight : used.sights) of_node[sight.node] += 6;
   int unknowns = 0;
   for (std::size_t i = 0; i < of_node.size(); ++i)
     if (used.datum != i) unknowns += std::min(6, of_node[i]);
@@ -152,13 +164,16 @@ int redundancy_of(const PoseGraph& used) {
 /// Root of the variance factor of what was used, each pair by itself; 1 at least, and where nothing checks anything.
 double sigma_factor_of(const PoseGraph& used, const PoseGraphResult& solved) {
   double squares = std::accumulate(solved.pair_misfit.begin(), solved.pair_misfit.end(), 0.0);
-  for (const Eigen::Vector3d& residual : solved.control_residual_m)
-    squares += residual.squaredNorm() / (used.control_sigma_m * used.control_sigma_m);
+  for (std::size_t k = 0; k < used.control.size(); ++k)
+    squares += std::pow(solved.control_residual_m[k].norm() / used.sigma_of_m(used.control[k]), 2);
+  for (const auto& misfits : {solved.sight_misfit, solved.camera_misfit})
+    squares += std::accumulate(misfits.begin(), misfits.end(), 0.0);
   const int redundancy = redundancy_of(used);
   return redundancy > 0 ? std::sqrt(std::max(1.0, squares / redundancy)) : 1.0;
 }
 
-/// Takes over what was used: pairs into the result, and only the control that was used stays with the nodes.
+/// Takes over what was used: pairs into the result, and only the control and pictures that were used stay with the
+/// nodes.
 void keep_used(RegistrationResult& result, std::vector<Node>& nodes, const Adjustment& adjustment,
                const PoseGraph& graph) {
   std::size_t k = 0;
@@ -167,7 +182,12 @@ void keep_used(RegistrationResult& result, std::vector<Node>& nodes, const Adjus
       pair.used = false;
       pair.why_not = "contradicts the other observations";
     }
-  for (Node& node : nodes) node.control.clear();
+  for (Node& node : nodes) {
+    node.control.clear();
+    node.sights.clear();
+  }
+  for (std::size_t c = 0; c < graph.sights.size(); ++c)
+    if (adjustment.sight_used[c]) nodes[graph.sights[c].node].sights.push_back(graph.sights[c]);
   for (std::size_t c = 0; c < graph.control.size(); ++c)
     if (adjustment.control_used[c]) nodes[graph.control[c].node].control.push_back(graph.control[c]);
 }
@@ -262,7 +282,7 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   result.pairs = pairs.results;
   report_pairs(result, options);
   Progress adjusting = progress.part(0.1, "adjusting all scans");
-  const PoseGraph graph = graph_of(nodes, candidates, result.pairs, options);
+  const PoseGraph graph = graph_of(nodes, candidates, result.pairs, context, options);
   const Adjustment adjustment = adjusted(graph, adjusting);
   report_contradictions(result, adjustment, graph, nodes);
   keep_used(result, nodes, adjustment, graph);
@@ -275,7 +295,9 @@ RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const R
   report_loops(result, options);
   place_nodes(result, nodes, candidates, graph, joint.solved, context, options);
   compare_guesses_with_control(result, nodes, options);
-  report_control(result, adjustment, joint.solved, graph, nodes, options);
+  report_control(result, adjustment, joint.solved, graph, nodes);
+  report_pictures(result, adjustment, joint.solved, graph, nodes, context);
+  compare_guesses_with_pictures(result, scans, nodes, options);
   if (graph.datum) result.datum_scan = nodes[*graph.datum].prepared->name;
   judge_datum(result, nodes, known, options);
   result.accepted = std::none_of(result.findings.begin(), result.findings.end(),

@@ -13,6 +13,7 @@
 #include "core/foundation/progress.h"
 #include "core/geometry/pose.h"
 #include "core/geometry/tile_source.h"
+#include "core/georeference/camera_rig.h"
 #include "core/georeference/control.h"
 #include "core/registration/icp_options.h"
 #include "core/registration/ndt_options.h"
@@ -137,7 +138,8 @@ struct PlacedScan {
   bool placed = false;
   Pose local_from_scan = Pose::Identity();
   PoseSigma sigma;
-  std::string placed_by;  ///< "clouds", "clouds and control", "control", "guess", "datum", "not placed"
+  /// "clouds", "control", "pictures" or what of them there is, joined by "and"; "guess", "datum", "not placed"
+  std::string placed_by;
   std::vector<std::string> undetermined;
 };
 
@@ -150,6 +152,34 @@ struct LoopClosure {
   double after_rad = 0.0;
 };
 
+/// What is left of a picture after the adjustment, and what it said.
+struct PictureResult {
+  std::string scan;
+  std::string picture;
+  std::string camera;
+  bool located = false;  ///< the targets in it say where the camera stood
+  bool used = false;     ///< in the adjustment
+  Pose local_from_camera = Pose::Identity();
+  double sigma_m = 0.0;                                  ///< of that place, the greatest of its axes
+  double sigma_rad = 0.0;                                ///< of its turns likewise
+  Eigen::Vector3d residual_m = Eigen::Vector3d::Zero();  ///< picture less adjusted, site axes
+  Eigen::Vector3d turned_rad = Eigen::Vector3d::Zero();  ///< likewise, as a rotation vector
+  double normalised = 0.0;                               ///< root of a sixth of their squares in sigmas: 1 is expected
+  std::vector<std::string> targets;                      ///< ids that were used to locate it
+  std::vector<std::string> rejected;                     ///< ids whose places contradict these
+  std::vector<std::string> unknown;                      ///< ids nobody surveyed
+  double rms_px = 0.0;
+};
+
+/// Where a camera sits on the scanner, after the adjustment.
+struct CameraResult {
+  std::string camera;
+  Pose scan_from_camera = Pose::Identity();
+  double moved_m = 0.0;  ///< from where it was said to sit
+  double moved_rad = 0.0;
+  double normalised = 0.0;  ///< root of a sixth of the move's squares in sigmas
+};
+
 struct RegistrationResult {
   bool accepted =
       false;  ///< no finding needs a decision: every scan placed, every direction determined, nothing contradicts
@@ -158,16 +188,19 @@ struct RegistrationResult {
   std::vector<LoopClosure> loops;
   std::vector<ControlResidual> control;
   double control_rms_m = 0.0;
+  std::vector<PictureResult> pictures;
+  std::vector<CameraResult> cameras;
   /// By how much observations contradict one another beyond their sigmas: the root of the variance factor (sum of
   /// squares in sigmas over redundancy), 1 at least. The sigmas of the scans are already multiplied by it.
   double sigma_factor = 1.0;
   /// How well the whole survey stands in the site frame, beside the sigmas of the scans, which are relative to the
-  /// datum: zero with control; without, what the guess of the datum scan is worth (position, and direction over half
-  /// the span).
+  /// datum: zero with control or pictures; without, what the guess of the datum scan is worth (position, and direction
+  /// over half the span).
   double datum_sigma_m = 0.0;
   /// The scan whose pose the survey hangs on without control; empty with it.
   std::string datum_scan;
-  /// False where nothing ties the survey to the site, neither control nor a guess: poses are in the datum scan's frame.
+  /// False where nothing ties the survey to the site, neither control, pictures nor a guess: poses are in the datum
+  /// scan's frame.
   bool in_site = true;
   Findings findings;
 };
@@ -176,13 +209,15 @@ struct RegistrationResult {
 struct RegistrationContext {
   std::vector<ControlPoint> control;       ///< local frame (site minus origin)
   std::vector<TargetObservation> targets;  ///< scan frames
+  std::vector<RigCamera> cameras;
+  std::vector<CameraSight> pictures;
   /// Unit direction of the tunnel axis in the local frame near a point; empty: taken from the clouds.
   std::function<Eigen::Vector3d(const Eigen::Vector3d&)> axis_direction;
   std::function<double()> clock_s;  ///< for how long pairs take; empty: not measured
 };
 
 /// Places all scans. Longest gap between two checks for cancel: summing up a few tiles (about 0.1 s).
-/// Throws Error for contradictions in the input (a target without its control point, no scan).
+/// Throws Error for contradictions in the input (a target without its control point, a picture of no scan, no scan).
 RegistrationResult register_scans(const std::vector<ScanToPlace>& scans, const RegistrationContext& context,
                                   const RegistrationOptions& options, Progress& progress);
 

@@ -28,6 +28,8 @@ std::string name_of(const Suspect& suspect, const PoseGraph& graph, const std::v
     const GraphPair& pair = graph.pairs[suspect.pairs.front()];
     return "pair " + scan_of(pair.source) + " - " + scan_of(pair.target);
   }
+  if (suspect.kind == Suspect::Kind::sight)
+    return "picture of scan " + scan_of(graph.sights[suspect.sights.front()].node);
   const GraphControl& first = graph.control[suspect.control.front()];
   if (suspect.kind == Suspect::Kind::point) return "control point " + first.id;
   if (suspect.kind == Suspect::Kind::scan) return "targets of scan " + scan_of(first.node);
@@ -96,6 +98,8 @@ std::string mend_of(Suspect::Kind kind) {
       return "check its name, its place in the scan and its control point; it stays left out until these are mended";
     case Suspect::Kind::point:
       return "check its coordinates in the control file, and whether it has moved";
+    case Suspect::Kind::sight:
+      return "check whether it was taken during that scan, its targets' coordinates, and how its camera sits";
     case Suspect::Kind::scan:
       break;
   }
@@ -203,7 +207,7 @@ void compare_with_guess(const PlacedScan& scan, const Node& node, const Pose& mo
                 "ended %.2f m and %.1f degrees from its guess, more than three times what guesses are worth", moved_m,
                 turned_deg);
   // Control decides which of the two was wrong; without it a person must.
-  const Severity severity = node.control.size() >= least_targets ? Severity::warning : Severity::decision;
+  const Severity severity = node.is_placed() ? Severity::warning : Severity::decision;
   findings.push_back(
       {severity, "scan " + scan.name, words, "check its pose in job.json and look at the scans from above"});
 }
@@ -277,6 +281,7 @@ void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, con
                                "survey three targets, or give one scan a pose in job.json"});
     return;
   }
+  if (std::any_of(nodes.begin(), nodes.end(), [](const Node& node) { return !node.sights.empty(); })) return;
   std::set<std::string> points;
   for (const Node& node : nodes)
     for (const GraphControl& control : node.control) points.insert(control.id);

@@ -95,7 +95,7 @@ std::optional<std::size_t> wrong_node(const std::vector<Node>& nodes, const Matc
   std::optional<std::size_t> worst;
   int most = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].by != Node::By::guess || nodes[i].control.size() >= least_targets) continue;
+    if (nodes[i].by != Node::By::guess || nodes[i].is_placed()) continue;
     const Votes votes = votes_of(i, nodes, pairs, tells, options);
     if (votes.direct_against == 0 || votes.direct_for > 0 || (worst && votes.all_against < most)) continue;
     worst = i;

@@ -78,4 +78,14 @@ Pose place_on_rock(const RockTunnel& tunnel, double chainage_m, double p_m, doub
   return pose;
 }
 
+Pose place_facing_back(const RockTunnel& tunnel, double chainage_m, double p_m, double before_m) {
+  constexpr double turned = 1.2;  // to one of the rock's own direction: 50 degrees
+  Pose pose = place_on_rock(tunnel, chainage_m, p_m, before_m);
+  const PlanPoint plan = tunnel.design().alignment().horizontal().at(chainage_m);
+  const Eigen::Vector3d back(-plan.tangent().x(), -plan.tangent().y(), 0.0), inwards = pose.linear().col(2);
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(inwards, (inwards + turned * back).normalized());
+  pose.linear() = (turn.toRotationMatrix() * pose.linear()).eval();
+  return pose;
+}
+
 }  // namespace adit

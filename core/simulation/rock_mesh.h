@@ -21,4 +21,7 @@ RockMesh rock_mesh(const RockTunnel& tunnel, double from_m, double to_m, double 
 /// rock, looking into the tunnel (z along the inward normal of the profile, y as upright as that permits).
 Pose place_on_rock(const RockTunnel& tunnel, double chainage_m, double p_m, double before_m);
 
+/// The same, turned towards those who come up the chainage, as targets are hung so that they are seen from afar.
+Pose place_facing_back(const RockTunnel& tunnel, double chainage_m, double p_m, double before_m);
+
 }  // namespace adit

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/foundation/angle.h"
+#include "render/photograph.h"
 #include "tests/core/profile_shapes.h"
 
 namespace adit::bench {
@@ -53,22 +54,8 @@ Pose camera_in(const RockTunnel& tunnel, double chainage_m, double aside_m, doub
 
 PictureOfTargets take_picture(const render::CameraScene& scene, const CameraLens& lens, const Pose& site_from_camera,
                               double lamp_reach_m, const CameraEffects& effects) {
-  constexpr double finer = 2.5;
-  const IdealSize size = ideal_size(lens, finer);
-  render::PinholeView view;
-  // The camera at the origin: float32 is then fine enough to tell ink from paper.
-  const Eigen::Vector3d& eye = site_from_camera.translation();
-  render::CameraScene near = scene;
-  for (Eigen::Vector3d& point : near.rock.points) point -= eye;
-  for (render::SceneTarget& target : near.targets) target.site_from_target.translation() -= eye;
-  view.site_from_camera.linear() = site_from_camera.linear();
-  view.width = size.width;
-  view.height = size.height;
-  view.focal_px = size.focal_px;
-  view.lamp_reach_m = lamp_reach_m;
-  render::CameraSceneView drawn(near);
   PictureOfTargets taken;
-  taken.picture = stored_picture(drawn.picture(view), size.focal_px, lens, effects);
+  taken.picture = render::photograph(scene, lens, site_from_camera, lamp_reach_m, effects);
   const Pose camera_from_site = site_from_camera.inverse();
   for (const render::SceneTarget& target : scene.targets) {
     const Eigen::Vector3d at = camera_from_site * target.site_from_target.translation();

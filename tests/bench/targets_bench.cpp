@@ -271,21 +271,14 @@ void bench_stations(const RockTunnel& tunnel, const RockMesh& rock) {
   std::map<int, Eigen::Vector3d> database;
   const Random random(3, 63);
   const double places[] = {-6.2, 5.9, -4.4, 4.6, -2.4, 2.2, 0.3};
+  constexpr double free_m = 0.14;  // before the rock, so that no rim of one that is turned sinks into it
   int id = 1;
   for (double s = 14.0; s < 50.0; s += 0.7, ++id) {
     render::SceneTarget target;
     target.code = code_of_id(id);
     target.radius_m = 0.11;
     const auto n = static_cast<std::uint64_t>(id);
-    Pose pose = place_on_rock(tunnel, s, places[id % 7] + 0.3 * random.uniform(n, -1.0, 1.0), 0.08);
-    // Turned towards those who come.
-    const PlanPoint plan = tunnel.design().alignment().horizontal().at(s);
-    const Eigen::Vector3d back(-plan.tangent().x(), -plan.tangent().y(), 0.0);
-    pose.linear() =
-        (Eigen::Quaterniond::FromTwoVectors(pose.linear().col(2), (pose.linear().col(2) + 1.2 * back).normalized())
-             .toRotationMatrix() *
-         pose.linear())
-            .eval();
+    const Pose pose = place_facing_back(tunnel, s, places[id % 7] + 0.3 * random.uniform(n, -1.0, 1.0), free_m);
     target.site_from_target = pose;
     scene.targets.push_back(target);
     const Eigen::Vector3d noise(random.normal(1000 + 3 * n), random.normal(1001 + 3 * n), random.normal(1002 + 3 * n));

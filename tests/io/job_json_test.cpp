@@ -43,5 +43,32 @@ TEST(JobJson, EverythingOfTheDesignComesBackFromItsText) {
   EXPECT_EQ(back.sectors, job.sectors);
 }
 
+TEST(JobJson, TargetsCamerasAndPicturesComeBackFromTheirText) {
+  const tests::TemporaryFolder folder;
+  for (const char* file : {"s1.ply", "a.png", "b.png", "cam.yaml", "landmarks.csv", "control.csv", "targets.csv"})
+    write_file_atomically(folder.path() / file, "x");
+  Job job;
+  job.name = "pictures";
+  job.scans = {{"S1", "s1.ply", 0, std::nullopt, {}, {{"a.png", "left"}, {"b.png", "right"}}}};
+  job.control = "control.csv";
+  job.targets = "targets.csv";
+  job.scan_targets = {0.145, true, false};
+  job.cameras = {{"left", "cam.yaml", {0.1, 0.2, 0.3}, {0.5, -0.25, 0.125}, 0.004, 0.001},
+                 {"right", "cam.yaml", {0.1, -0.2, 0.3}, {}, 0.002, 0.0005}};
+  job.landmarks = {"landmarks.csv", 0.001, true};
+  write_file_atomically(folder.path() / "job.json", job_text(job));
+  const Job back = read_job(folder.path() / "job.json");
+  EXPECT_EQ(job_text(back), job_text(job));
+  ASSERT_EQ(back.cameras.size(), 2U);
+  EXPECT_NEAR(back.cameras[0].angles.pitch_rad, -0.25, 1e-12);
+  EXPECT_NEAR(back.cameras[0].sigma_rad, 0.001, 1e-12);
+  EXPECT_EQ(back.scans[0].pictures[1].camera, "right");
+  EXPECT_TRUE(back.landmarks.no_others);
+  EXPECT_EQ(back.targets, "targets.csv");
+  EXPECT_EQ(back.scan_targets.sphere_diameter_m, 0.145);
+  EXPECT_TRUE(back.scan_targets.quarters);
+  EXPECT_FALSE(back.scan_targets.coded);
+}
+
 }  // namespace
 }  // namespace adit::io

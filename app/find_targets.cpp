@@ -1,0 +1,97 @@
+#include "app/find_targets.h"
+
+#include <algorithm>
+#include <string>
+
+#include "app/placed_tiles.h"
+#include "app/site_guess.h"
+#include "core/foundation/angle.h"
+#include "core/georeference/match_targets.h"
+
+namespace adit::app {
+namespace {
+
+ScanTargetOptions options_of(const JobState& state) {
+  ScanTargetOptions options;
+  options.sphere_radius_m = 0.5 * state.job.scan_targets.sphere_diameter_m;
+  options.quarters = state.job.scan_targets.quarters;
+  options.coded = state.job.scan_targets.coded;
+  return options;
+}
+
+/// The control point of a coded target: "7", or "007".
+std::string coded_point(const std::vector<ControlPoint>& control, int id) {
+  for (const ControlPoint& point : control)
+    if (target_id(point.id) == id) return point.id;
+  return {};
+}
+
+/// Those of one scan by control: coded ones that nobody surveyed take no part.
+void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarget> seen,
+                  std::vector<FoundTarget>& found, Findings& findings, Progress& progress) {
+  std::vector<ControlPoint> control = state.control;
+  for (ControlPoint& point : control) point.position = state.results.import.origin.to_local(point.position);
+  std::vector<UnnamedTarget> unnamed;
+  std::vector<std::size_t> of;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const bool coded = seen[i].kind == TargetKind::coded;
+    const std::string id = coded ? coded_point(control, seen[i].code_id) : std::string();
+    if (coded && id.empty()) continue;
+    unnamed.push_back({seen[i].center, seen[i].sigma_m, id});
+    of.push_back(i);
+  }
+  const RegistrationOptions& registration = state.job.options.registration;
+  const auto guess = local_from_scan_guess(state, scan);
+  const TargetMatch match =
+      match_targets(unnamed, control, guess,
+                    {registration.control_sigma_m, registration.guess_sigma_m, rad_from_deg(registration.guess_sigma_deg)},
+                    progress);
+  std::vector<std::string> id_of(seen.size());
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    if (match.control[k]) id_of[of[k]] = control[*match.control[k]].id;
+    // Too few to be checked by distances: a code speaks for itself, and the adjustment tests it.
+    if (!match.local_from_scan && !match.ambiguous) id_of[of[k]] = unnamed[k].id;
+  }
+  const std::string& name = state.job.scans[scan].name;
+  std::size_t nameless = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    nameless += id_of[i].empty() ? 1 : 0;
+    found.push_back({name, seen[i].kind, id_of[i], seen[i].center + state.stores[scan]->offset(), seen[i].sigma_m,
+                     seen[i].size_m, seen[i].pixels});
+  }
+  const std::string subject = "scan " + name;
+  if (seen.empty()) {
+    findings.push_back({Severity::warning, subject, "none of the targets the job asks for is found in it",
+                        "scan more densely, or nearer to them"});
+  } else if (match.ambiguous) {
+    findings.push_back({Severity::decision, subject,
+                        "its " + std::to_string(seen.size()) +
+                            " targets fit the control points in more than one way: none is used",
+                        "give the scan a pose, or name them in targets.csv"});
+  } else if (nameless > 0) {
+    findings.push_back({Severity::warning, subject,
+                        std::to_string(nameless) + " of " + std::to_string(seen.size()) +
+                            " targets found in it lie on no control point and are not used",
+                        "compare them with the control file: results.json lists them"});
+  }
+}
+
+}  // namespace
+
+std::vector<FoundTarget> find_targets(const JobState& state, Findings& findings, Progress& progress) {
+  std::vector<FoundTarget> found;
+  for (std::size_t i = 0; i < state.stores.size(); ++i) {
+    Progress part = progress.part(1.0 / static_cast<double>(state.stores.size()),
+                                  "looking for targets in " + state.job.scans[i].name);
+    if (!scanner_at_origin(*state.stores[i])) {
+      findings.push_back({Severity::warning, "scan " + state.job.scans[i].name,
+                          "targets are not looked for: its file does not say where the scanner stood",
+                          "export it in the scanner's own frame"});
+      continue;
+    }
+    name_targets(state, i, find_scan_targets(*state.stores[i], options_of(state), part), found, findings, part);
+  }
+  return found;
+}
+
+}  // namespace adit::app

@@ -1,0 +1,154 @@
+#include "io/job_targets_json.h"
+
+#include <algorithm>
+
+#include "core/foundation/angle.h"
+#include "io/existing_file.h"
+
+namespace adit::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double farthest_m = 5.0;  // from the scanner: beyond, it is not fixed to it
+
+JobCamera read_camera_of_job(const JsonPlace& place, const fs::path& folder) {
+  place.only_keys({"name", "file", "position", "yaw_pitch_roll_deg", "sigma_m", "sigma_deg"});
+  JobCamera camera;
+  camera.name = place.text_or("name", "camera");
+  if (camera.name.empty() || camera.name.size() > 200)
+    place.at("name").refuse("a camera needs a name of 1 to 200 letters", "write one, for instance front");
+  camera.file = existing_file(place.at("file"), folder);
+  const auto position = place.at("position").numbers(3);
+  for (const double value : position)
+    if (!(std::abs(value) <= farthest_m))
+      place.at("position").refuse("the camera is more than 5 m from the scanner",
+                                  "write metres in the scanner's own frame");
+  camera.position = {position[0], position[1], position[2]};
+  const auto turns = place.at("yaw_pitch_roll_deg").numbers(3);
+  for (const double turn : turns)
+    if (!(std::abs(turn) <= 360.0))
+      place.at("yaw_pitch_roll_deg").refuse("an angle beyond 360 degrees", "degrees are needed");
+  camera.angles = {rad_from_deg(turns[0]), rad_from_deg(turns[1]), rad_from_deg(turns[2])};
+  if (place.has("sigma_m")) camera.sigma_m = place.at("sigma_m").number_between(1e-5, 1.0, "m");
+  if (place.has("sigma_deg")) camera.sigma_rad = rad_from_deg(place.at("sigma_deg").number_between(1e-4, 10.0, "deg"));
+  return camera;
+}
+
+void check_cameras(const JsonPlace& cameras, const Job& job) {
+  for (std::size_t i = 0; i < job.cameras.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (job.cameras[i].name == job.cameras[k].name)
+        cameras.refuse("two cameras are named \"" + job.cameras[i].name + "\"", "rename one");
+}
+
+void check_pictures(const JsonPlace& root, const Job& job) {
+  for (const JobScan& scan : job.scans)
+    for (const JobPicture& picture : scan.pictures) {
+      if (job.cameras.empty())
+        root.refuse("scan " + scan.name + " has pictures, and the job no \"cameras\"", "describe the camera");
+      const bool known = std::any_of(job.cameras.begin(), job.cameras.end(),
+                                     [&](const JobCamera& camera) { return camera.name == picture.camera; });
+      if (picture.camera.empty() && job.cameras.size() > 1)
+        root.refuse("picture " + picture.file + " does not say which camera took it, and the job has several",
+                    "write {\"file\": ..., \"camera\": ...}");
+      if (!picture.camera.empty() && !known)
+        root.refuse("picture " + picture.file + " is of camera \"" + picture.camera + "\", which the job does not have",
+                    "use the names in \"cameras\"");
+    }
+  const bool any = std::any_of(job.scans.begin(), job.scans.end(), [](const JobScan& s) { return !s.pictures.empty(); });
+  if (any && job.landmarks.file.empty())
+    root.refuse("pictures without surveyed targets", "name their table in \"landmarks\"");
+}
+
+}  // namespace
+
+void read_job_targets(const JsonPlace& place, const fs::path& folder, Job& job) {
+  if (place.is_text()) {
+    job.targets = existing_file(place, folder);
+    return;
+  }
+  place.only_keys({"file", "sphere_diameter", "quarters", "coded"});
+  if (place.has("file")) job.targets = existing_file(place.at("file"), folder);
+  if (place.has("sphere_diameter"))
+    job.scan_targets.sphere_diameter_m = place.at("sphere_diameter").number_between(0.03, 1.0, "m");
+  if (place.has("quarters")) job.scan_targets.quarters = place.at("quarters").yes_or_no();
+  if (place.has("coded")) job.scan_targets.coded = place.at("coded").yes_or_no();
+  if (job.targets.empty() && !job.scan_targets.any())
+    place.refuse("it names neither a file nor what to look for",
+                 "write \"file\", or \"sphere_diameter\": 0.145, \"quarters\": true or \"coded\": true");
+}
+
+void add_job_targets(const Job& job, nlohmann::ordered_json& root) {
+  if (!job.scan_targets.any()) {
+    if (!job.targets.empty()) root["targets"] = job.targets;
+    return;
+  }
+  nlohmann::ordered_json targets;
+  if (!job.targets.empty()) targets["file"] = job.targets;
+  if (job.scan_targets.sphere_diameter_m > 0.0) targets["sphere_diameter"] = job.scan_targets.sphere_diameter_m;
+  if (job.scan_targets.quarters) targets["quarters"] = true;
+  if (job.scan_targets.coded) targets["coded"] = true;
+  root["targets"] = targets;
+}
+
+std::vector<JobPicture> read_job_pictures(const JsonPlace& place, const fs::path& folder) {
+  std::vector<JobPicture> pictures;
+  for (const JsonPlace& one : place.items()) {
+    if (one.is_text()) {
+      pictures.push_back({existing_file(one, folder), {}});
+      continue;
+    }
+    one.only_keys({"file", "camera"});
+    pictures.push_back({existing_file(one.at("file"), folder), one.text_or("camera", "")});
+  }
+  return pictures;
+}
+
+void read_job_cameras(const JsonPlace& root, const fs::path& folder, Job& job) {
+  if (root.has("cameras")) {
+    for (const JsonPlace& camera : root.at("cameras").items()) job.cameras.push_back(read_camera_of_job(camera, folder));
+    check_cameras(root.at("cameras"), job);
+  }
+  if (root.has("landmarks")) {
+    const JsonPlace place = root.at("landmarks");
+    if (place.is_text()) {
+      job.landmarks.file = existing_file(place, folder);
+    } else {
+      place.only_keys({"file", "sigma_m", "no_others"});
+      job.landmarks.file = existing_file(place.at("file"), folder);
+      if (place.has("sigma_m")) job.landmarks.sigma_m = place.at("sigma_m").number_between(0.0, 1.0, "m");
+      if (place.has("no_others")) job.landmarks.no_others = place.at("no_others").yes_or_no();
+    }
+  }
+  check_pictures(root, job);
+}
+
+nlohmann::ordered_json pictures_json(const std::vector<JobPicture>& pictures) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const JobPicture& picture : pictures) {
+    if (picture.camera.empty())
+      list.push_back(picture.file);
+    else
+      list.push_back({{"file", picture.file}, {"camera", picture.camera}});
+  }
+  return list;
+}
+
+void add_job_cameras(const Job& job, nlohmann::ordered_json& root) {
+  for (const JobCamera& camera : job.cameras) {
+    const auto deg = [](double rad) { return deg_from_rad(rad); };
+    root["cameras"].push_back(
+        {{"name", camera.name},
+         {"file", camera.file},
+         {"position", {camera.position.x(), camera.position.y(), camera.position.z()}},
+         {"yaw_pitch_roll_deg", {deg(camera.angles.yaw_rad), deg(camera.angles.pitch_rad), deg(camera.angles.roll_rad)}},
+         {"sigma_m", camera.sigma_m},
+         {"sigma_deg", deg(camera.sigma_rad)}});
+  }
+  const JobLandmarks& landmarks = job.landmarks;
+  if (landmarks.file.empty()) return;
+  root["landmarks"] = {{"file", landmarks.file}, {"sigma_m", landmarks.sigma_m}, {"no_others", landmarks.no_others}};
+}
+
+}  // namespace adit::io

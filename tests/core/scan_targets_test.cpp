@@ -1,0 +1,89 @@
+#include "core/georeference/scan_targets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/foundation/angle.h"
+#include "core/foundation/random.h"
+#include "core/simulation/rock_mesh.h"
+#include "core/simulation/scanner.h"
+#include "tests/core/sample_tunnel.h"
+
+namespace adit {
+namespace {
+
+using namespace tests;
+
+/// Targets about a scanner that looks along the tunnel, and what a scan of a sector shows of them.
+struct Seen {
+  Pose design_from_scan = Pose::Identity();
+  std::vector<ScannedTarget> hung;
+  std::vector<ScanTarget> found;
+};
+
+Seen scanned(double step_mrad, std::uint64_t seed) {
+  const RockTunnel rock = sample_rock();
+  const Random random(seed, 4);
+  Seen seen;
+  const double s = 30.0;
+  const PlanPoint plan = rock.design().alignment().horizontal().at(s);
+  seen.design_from_scan = make_pose(rock.design().alignment().to_site({s, 0.3, 1.6}),
+                                    {std::atan2(plan.tangent().y(), plan.tangent().x()), 0.004, -0.006});
+  const double length = rock.profile().length_m();
+  for (int i = 0; i < 8; ++i) {
+    const auto n = static_cast<std::uint64_t>(i);
+    ScannedTarget target;
+    target.kind = i % 2 == 0 ? TargetKind::quarters : TargetKind::coded;
+    target.radius_m = i % 2 == 0 ? 0.10 : 0.075;
+    target.code = code_of_id(i + 1);
+    target.pose = place_facing_back(rock, s + 5.0 + 0.8 * i, length * random.uniform(n, -0.25, 0.25), 0.15);
+    seen.hung.push_back(target);
+  }
+  for (int i = 0; i < 4; ++i) {
+    ScannedTarget target;
+    target.radius_m = 0.0725;
+    target.pose.translation() = rock.design().alignment().to_site({s + 4.5 + 1.9 * i, -1.5 + 0.9 * i, 0.5 + 0.2 * i});
+    seen.hung.push_back(target);
+  }
+  ScannerOptions options;
+  options.seed = seed;
+  options.from_azimuth_deg = -45.0;
+  options.to_azimuth_deg = 45.0;
+  options.lowest_elevation_deg = -25.0;
+  options.highest_elevation_deg = 45.0;
+  options.pulses = static_cast<std::uint64_t>(rad_from_deg(90.0) * rad_from_deg(70.0) / std::pow(1e-3 * step_mrad, 2));
+  options.targets = seen.hung;
+  Progress progress;
+  const CloudTiles tiles(scan_tunnel(rock, seen.design_from_scan, options, {}, progress));
+  ScanTargetOptions find;
+  find.sphere_radius_m = 0.0725;
+  find.quarters = find.coded = true;
+  seen.found = find_scan_targets(tiles, find, progress);
+  return seen;
+}
+
+TEST(ScanTargetsSlow, Probe) {
+  const Seen seen = scanned(std::getenv("STEP") ? std::atof(std::getenv("STEP")) : 0.6, 1);
+  for (const ScannedTarget& hung : seen.hung) {
+    const Eigen::Vector3d at = seen.design_from_scan.inverse() * hung.pose.translation();
+    const ScanTarget* best = nullptr;
+    for (const ScanTarget& found : seen.found)
+      if (found.kind == hung.kind && (found.center - at).norm() < 0.05) best = &found;
+    std::printf("%d at %.1f m az %.2f el %.2f: ", static_cast<int>(hung.kind), at.norm(), deg_from_rad(std::atan2(at.y(), at.x())), deg_from_rad(std::asin(at.z()/at.norm())));
+    if (best)
+      std::printf("off %.2f mm (%.2f %.2f %.2f), sigma %.2f, size %.3f, %d px, id %d of %d\n", 1e3 * (best->center - at).norm(), 1e3*(best->center - at).x(), 1e3*(best->center - at).y(), 1e3*(best->center - at).z(), 1e3 * best->sigma_m, best->size_m, best->pixels, best->code_id, id_of_code(hung.code));
+    else
+      std::printf("not found\n");
+  }
+  for (const ScanTarget& found : seen.found) {
+    bool right = false;
+    for (const ScannedTarget& hung : seen.hung)
+      right = right || (seen.design_from_scan * found.center - hung.pose.translation()).norm() < 0.05;
+    if (!right) std::printf("wrong: kind %d at %.2f m size %.3f px %d sigma %.2f\n", static_cast<int>(found.kind), found.center.norm(), found.size_m, found.pixels, 1e3 * found.sigma_m);
+  }
+}
+
+}  // namespace
+}  // namespace adit
