@@ -22,11 +22,12 @@ using coded_pattern::segments;
 constexpr double places_across = 26.0;
 constexpr double least_core_likeness = 0.93, sure_core_likeness = 0.985;
 constexpr double least_soft_likeness = 0.90, sure_likeness = 0.965, hopeless_likeness = 0.85;
-constexpr double least_likeness = 0.95, usual_likeness = 0.96, least_likeness_covered = 0.98;
-// What noise does not explain (unexplained_share), measured: right targets leave up to 0.028, the likest letters and
-// bolts 0.027 and more; those less like their pattern than usual 0.014 and more.
-constexpr double most_unexplained = 0.027, most_unexplained_of_unlike = 0.0125;
-constexpr double least_bleed = -0.5;  // black creeps over white in ink that runs; light makes white creep over black
+constexpr double least_likeness = 0.96, least_likeness_covered = 0.98;
+// What noise does not explain (unexplained_share), measured: right targets leave up to 0.028, but for single ones, the
+// likest letters and bolts 0.027 and more.
+constexpr double most_unexplained = 0.027;
+// Black creeps over white in ink that runs, white over black by light and gamma: right targets show -0.3 to 0.7.
+constexpr double least_bleed = -0.5, most_bleed = 0.75;
 // Shares of places that must lie near the fitted pattern. What is no target, or another code, leaves more of them.
 constexpr double least_core_near = 0.80, least_soft_near = 0.70, least_disc_near = 0.93;
 constexpr double least_near_of_any = 0.97, least_near_of_known = 0.80;
@@ -203,8 +204,8 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
     return std::nullopt;
   const FitProblem uncovered = of_near_places(problem, look);
   if (!refine(uncovered, look, outlier_limit(look), last_steps, last)) return std::nullopt;
-  const double most = quality.likeness < usual_likeness ? most_unexplained_of_unlike : most_unexplained;
-  if (look.bleed < least_bleed || unexplained_share(problem, look) > most) return std::nullopt;
+  if (look.bleed < least_bleed || look.bleed > most_bleed || unexplained_share(problem, look) > most_unexplained)
+    return std::nullopt;
   const auto decoded =
       decode_segments(*problem.picture, look.place, problem.grid, {look.blur_px, look.bleed, look.black}, codes);
   if (!decoded || decoded->code != first->code) return std::nullopt;
