@@ -123,19 +123,27 @@ class WindowSums {
     if (v + half_px_ < picture_.height) change(v + half_px_, 1);
     if (v - half_px_ - 1 >= 0) change(v - half_px_ - 1, -1);
     const int rows = std::min(v + half_px_, picture_.height - 1) - std::max(v - half_px_, 0) + 1;
-    const int width = picture_.width;
+    const int width = picture_.width, whole = 2 * half_px_ + 1;
+    const float of_whole = 1.0F / static_cast<float>(rows * whole);
     int sum = 0;
-    for (int u = 0; u < std::min(half_px_, width); ++u) sum += columns_[static_cast<std::size_t>(u)];
-    for (int u = 0; u < width; ++u) {
-      const int entering = u + half_px_, left = u - half_px_ - 1;
-      if (entering < width) sum += columns_[static_cast<std::size_t>(entering)];
-      if (left >= 0) sum -= columns_[static_cast<std::size_t>(left)];
+    for (int u = 0; u < std::min(half_px_, width); ++u) sum += column(u);
+    const auto near_rim = [&](int u) {
+      if (u + half_px_ < width) sum += column(u + half_px_);
+      if (u - half_px_ - 1 >= 0) sum -= column(u - half_px_ - 1);
       const int across = std::min(u + half_px_, width - 1) - std::max(u - half_px_, 0) + 1;
       means[static_cast<std::size_t>(u)] = static_cast<float>(sum) / static_cast<float>(rows * across);
+    };
+    int u = 0;
+    for (; u < std::min(half_px_ + 1, width); ++u) near_rim(u);
+    for (; u + half_px_ < width; ++u) {
+      sum += column(u + half_px_) - column(u - half_px_ - 1);
+      means[static_cast<std::size_t>(u)] = static_cast<float>(sum) * of_whole;
     }
+    for (; u < width; ++u) near_rim(u);
   }
 
  private:
+  int column(int u) const { return columns_[static_cast<std::size_t>(u)]; }
   void change(int row, int sign) {
     const std::uint8_t* pixels = picture_.pixels.data() + picture_.index(0, row);
     for (std::size_t u = 0; u < columns_.size(); ++u) columns_[u] += sign * static_cast<int>(pixels[u]);

@@ -5,18 +5,39 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/foundation/angle.h"
 
 namespace adit {
 namespace {
 
+constexpr double pattern_end = 1.04;                      // beyond, the paper of small targets ends
 constexpr double blur_sigma_px = 0.6, bleed_sigma = 0.7;  // what is known beforehand
 
-Eigen::RowVector2d gradient_at(const GreyPicture& picture, const Eigen::Vector2d& pixel) {
-  const auto value = [&](double du, double dv) { return picture.between(pixel.x() + du, pixel.y() + dv); };
-  return {value(0.5, 0.0) - value(-0.5, 0.0), value(0.0, 0.5) - value(0.0, -0.5)};
-}
+/// The picture between the pixels, and by how much it rises over one of them (from half a pixel before to half behind).
+struct Grey {
+  double value, along_u, along_v;
+
+  Grey(const GreyPicture& picture, const Eigen::Vector2d& pixel) {
+    const int i = static_cast<int>(pixel.x()), j = static_cast<int>(pixel.y());
+    const double a = pixel.x() - i, b = pixel.y() - j;
+    // The rise crosses the cell of the place and the one on its nearer side.
+    const int left = a < 0.5 ? i - 1 : i, top = b < 0.5 ? j - 1 : j;
+    const double right_share = a < 0.5 ? a + 0.5 : a - 0.5, low_share = b < 0.5 ? b + 0.5 : b - 0.5;
+    const std::uint8_t* row = picture.pixels.data() + picture.index(i, j);
+    const std::uint8_t* next = row + picture.width;
+    const auto column = [&](int k) { return (1.0 - b) * row[k - i] + b * next[k - i]; };
+    const auto line = [&](int k) {
+      const std::uint8_t* at = row + (k - j) * picture.width;
+      return (1.0 - a) * at[0] + a * at[1];
+    };
+    value = (1.0 - b) * line(j) + b * line(j + 1);
+    along_u =
+        (1.0 - right_share) * (column(left + 1) - column(left)) + right_share * (column(left + 2) - column(left + 1));
+    along_v = (1.0 - low_share) * (line(top + 1) - line(top)) + low_share * (line(top + 2) - line(top + 1));
+  }
+};
 
 bool holds_with_gradient(const GreyPicture& picture, const Eigen::Vector2d& pixel) {
   return picture.holds(pixel.x() - 0.5, pixel.y() - 0.5) && picture.holds(pixel.x() + 0.5, pixel.y() + 0.5);
@@ -38,56 +59,62 @@ void move(Appearance& look, const Unknowns& by) {
   look.black = std::min(look.black, look.white);
 }
 
-double darkness_of(const FitProblem& problem, const PatternPlace& place, const TargetBlur& blur) {
-  return problem.with_segments ? darkness_of(problem.blackness, place, blur) : disc_darkness_at(place, blur);
+Shade shade_of(const FitProblem& problem, const PatternPlace& place, const TargetBlur& blur) {
+  return problem.with_segments ? shade_of(problem.blackness, place, blur) : disc_shade_at(place, blur);
 }
 
 double value_of(const Appearance& look, const Eigen::Vector2d& at, double darkness) {
   return look.white + look.white_slope.dot(at) - look.black * darkness;
 }
 
-/// d (grey of the picture - value of the pattern) / d unknowns, but for the blur.
-Unknowns row_of(const Appearance& look, const Eigen::Vector2d& at, const Eigen::RowVector2d& gradient,
-                double darkness) {
+/// d (grey of the picture - value of the pattern) / d unknowns.
+Unknowns row_of(const Appearance& look, const Eigen::Vector2d& at, const Grey& grey, const Shade& shade) {
   const double scale = 1.0 / (1.0 + look.place.tilt.dot(at));
-  const double along_tilt = -scale * scale * gradient.dot(look.place.shape * at);
+  const double u = grey.along_u, v = grey.along_v;
+  const Eigen::Vector2d shaped = look.place.shape * at;
+  const double along_tilt = -scale * scale * (u * shaped.x() + v * shaped.y());
   Unknowns row;
-  row << gradient(0), gradient(1), gradient(0) * at.x() * scale, gradient(0) * at.y() * scale,
-      gradient(1) * at.x() * scale, gradient(1) * at.y() * scale, -1.0, darkness, along_tilt * at.x(),
-      along_tilt * at.y(), 0.0, -at.x(), -at.y(), 0.0;
+  row << u, v, u * at.x() * scale, u * at.y() * scale, v * at.x() * scale, v * at.y() * scale, -1.0, shade.value,
+      along_tilt * at.x(), along_tilt * at.y(), look.black * shade.by_log_blur / look.blur_px, -at.x(), -at.y(),
+      look.black * shade.by_bleed;
   return row;
+}
+
+/// Lower half of the first `count` unknowns, and some above it: columns from even rows on, which the processor takes
+/// two numbers at a time.
+template <int count, int column = 0>
+void add_row(FitSums& sums, const Unknowns& row, const Unknowns& weighed) {
+  if constexpr (column < count) {
+    constexpr int first = column - column % 2;
+    sums.normal.template block<count - first, 1>(first, column) +=
+        weighed(column) * row.template segment<count - first>(first);
+    add_row<count, column + 1>(sums, row, weighed);
+  }
 }
 
 /// Huber's weights: what lies off by more than `limit` grey levels (a cover, dust, glare) counts less.
 FitSums sums_of(const FitProblem& problem, const Appearance& look, double limit) {
-  constexpr double blur_change = 0.05, bleed_change = 0.05;
   const TargetBlur blur(look.blur_px, look.bleed, look.place.shape);
-  const TargetBlur wider(look.blur_px * (1.0 + blur_change), look.bleed, look.place.shape);
-  const TargetBlur bled(look.blur_px, look.bleed + bleed_change, look.place.shape);
   FitSums sums;
   for (const PatternPlace& place : problem.grid) {
-    const Eigen::Vector2d& at = place.at;
-    const Eigen::Vector2d pixel = look.place.pixel(at);
+    const Eigen::Vector2d pixel = look.place.pixel(place.at);
     if (!holds_with_gradient(*problem.picture, pixel)) {
       sums.whole = false;
       continue;
     }
-    const double darkness = darkness_of(problem, place, blur);
-    const double off = problem.picture->between(pixel.x(), pixel.y()) - value_of(look, at, darkness);
+    const Shade shade = shade_of(problem, place, blur);
+    const Grey grey(*problem.picture, pixel);
+    const double off = grey.value - value_of(look, place.at, shade.value);
     const double weight = std::abs(off) > limit ? limit / std::abs(off) : 1.0;
     sums.cost += weight * off * off;
     sums.weight += weight;
-    Unknowns row = row_of(look, at, gradient_at(*problem.picture, pixel), darkness);
-    if (problem.few) {
-      const Eigen::Matrix<double, few_unknowns, 1> few = row.head<few_unknowns>();
-      sums.normal.topLeftCorner<few_unknowns, few_unknowns>() += (weight * few) * few.transpose();
-      sums.right.head<few_unknowns>() -= weight * off * few;
-    } else {
-      row(10) = look.black * (darkness_of(problem, place, wider) - darkness) / (blur_change * look.blur_px);
-      row(13) = look.black * (darkness_of(problem, place, bled) - darkness) / bleed_change;
-      sums.normal.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
-      sums.right -= weight * off * row;
-    }
+    const Unknowns row = row_of(look, place.at, grey, shade);
+    const Unknowns weighed = weight * row;
+    sums.right -= off * weighed;
+    if (problem.few)
+      add_row<few_unknowns>(sums, row, weighed);
+    else
+      add_row<unknowns>(sums, row, weighed);
   }
   return sums;
 }
@@ -115,7 +142,7 @@ void set_levels(const FitProblem& problem, Appearance& look) {
     const Eigen::Vector2d& at = place.at;
     const Eigen::Vector2d pixel = look.place.pixel(at);
     if (!problem.picture->holds(pixel.x(), pixel.y())) continue;
-    const double darkness = darkness_of(problem, place, blur), grey = problem.picture->between(pixel.x(), pixel.y());
+    const double darkness = shade_of(problem, place, blur).value, grey = problem.picture->between(pixel.x(), pixel.y());
     n += 1.0;
     d += darkness;
     dd += darkness * darkness;
@@ -166,6 +193,14 @@ double outlier_limit(const Appearance& look) {
   return std::max(4.0, 0.15 * look.black);
 }
 
+bool lies_near(const FitProblem& problem, const Appearance& look, const PatternPlace& place) {
+  const Eigen::Vector2d pixel = look.place.pixel(place.at);
+  if (!problem.picture->holds(pixel.x(), pixel.y())) return false;
+  const double darkness = shade_of(problem, place, TargetBlur(look.blur_px, look.bleed, look.place.shape)).value;
+  const double off = problem.picture->between(pixel.x(), pixel.y()) - value_of(look, place.at, darkness);
+  return std::abs(off) <= 2.0 * outlier_limit(look);
+}
+
 FitQuality quality_of(const FitProblem& problem, const Appearance& look) {
   const TargetBlur blur(look.blur_px, look.bleed, look.place.shape);
   const double limit = 2.0 * outlier_limit(look);
@@ -174,11 +209,11 @@ FitQuality quality_of(const FitProblem& problem, const Appearance& look) {
   for (const PatternPlace& place : problem.grid) {
     const Eigen::Vector2d pixel = look.place.pixel(place.at);
     if (!problem.picture->holds(pixel.x(), pixel.y())) continue;
-    const double darkness = darkness_of(problem, place, blur);
+    const double darkness = shade_of(problem, place, blur).value;
     const double grey = problem.picture->between(pixel.x(), pixel.y());
     const bool is_near = std::abs(grey - value_of(look, place.at, darkness)) <= limit;
     const bool in_core = place.radius < core_radius;
-    const bool counts = place.radius < 1.04;  // beyond, the paper of small targets ends
+    const bool counts = place.radius < pattern_end;
     all += counts ? 1.0 : 0.0;
     core += in_core ? 1.0 : 0.0;
     near += is_near && counts ? 1.0 : 0.0;
@@ -186,6 +221,76 @@ FitQuality quality_of(const FitProblem& problem, const Appearance& look) {
     if (is_near) correlation.add(grey - look.white_slope.dot(place.at), -darkness);
   }
   return {correlation.value(), near / std::max(1.0, all), core_near / std::max(1.0, core)};
+}
+
+namespace {
+
+/// Pixels of a box, what they are off the pattern and what the pattern says; those that do not count are off by NaN.
+struct Residuals {
+  int width, height;
+  std::vector<double> off, pattern;
+};
+
+Residuals residuals_of(const FitProblem& problem, const Appearance& look) {
+  constexpr double least_blur_px = 0.3, between_pixels_px2 = 1.0 / 6.0;  // variance that bilinear values add
+  const double blur_px =
+      std::max(least_blur_px, std::sqrt(std::max(0.0, look.blur_px * look.blur_px - between_pixels_px2)));
+  const TargetBlur blur(blur_px, look.bleed, look.place.shape);
+  const GreyPicture& picture = *problem.picture;
+  const Eigen::Vector2d& center = look.place.center;
+  const double reach = 1.3 * long_radius_px(look.place.shape) + 2.0, limit = 2.0 * outlier_limit(look);
+  const int left = std::max(0, static_cast<int>(center.x() - reach)),
+            right = std::min(picture.width - 1, static_cast<int>(center.x() + reach)),
+            top = std::max(0, static_cast<int>(center.y() - reach)),
+            low = std::min(picture.height - 1, static_cast<int>(center.y() + reach));
+  Residuals residuals{right - left + 1, low - top + 1, {}, {}};
+  for (int v = top; v <= low; ++v)
+    for (int u = left; u <= right; ++u) {
+      const Eigen::Vector2d away = Eigen::Vector2d(u, v) - center;
+      const Eigen::Vector2d at = (look.place.shape - away * look.place.tilt.transpose()).inverse() * away;
+      double off = std::numeric_limits<double>::quiet_NaN(), pattern = 0.0;
+      if (at.norm() < pattern_end && 1.0 + look.place.tilt.dot(at) > 0.0) {
+        const double darkness = shade_of(problem, PatternPlace(at), blur).value;
+        const double rest = picture.at(u, v) - value_of(look, at, darkness);
+        pattern = look.black * darkness;
+        if (std::abs(rest) <= limit) off = rest;
+      }
+      residuals.off.push_back(off);
+      residuals.pattern.push_back(pattern);
+    }
+  return residuals;
+}
+
+struct Moments {
+  double n = 0.0, sum = 0.0, squares = 0.0;
+  void add(double a) {
+    n += 1.0;
+    sum += a;
+    squares += a * a;
+  }
+  double mean_square() const { return squares / std::max(1.0, n); }
+  double variance() const { return mean_square() - sum * sum / std::max(1.0, n * n); }
+};
+
+}  // namespace
+
+double unexplained_share(const FitProblem& problem, const Appearance& look) {
+  const Residuals residuals = residuals_of(problem, look);
+  Moments off, pattern, steps;
+  for (int v = 0; v < residuals.height; ++v)
+    for (int u = 0; u < residuals.width; ++u) {
+      const auto i = static_cast<std::size_t>(v * residuals.width + u);
+      if (std::isnan(residuals.off[i])) continue;
+      off.add(residuals.off[i]);
+      pattern.add(residuals.pattern[i]);
+      const auto step_to = [&](std::size_t k) {
+        if (!std::isnan(residuals.off[k])) steps.add(residuals.off[i] - residuals.off[k]);
+      };
+      if (u + 1 < residuals.width) step_to(i + 1);
+      if (v + 1 < residuals.height) step_to(i + static_cast<std::size_t>(residuals.width));
+    }
+  const double noise = 0.5 * steps.mean_square();
+  return pattern.variance() > 0.0 ? (off.variance() - noise) / pattern.variance() : 1.0;
 }
 
 Eigen::Matrix2d center_covariance(const FitProblem& problem, const Appearance& look, const FitSums& sums) {

@@ -80,8 +80,15 @@ struct FitQuality {
 
 FitQuality quality_of(const FitProblem& problem, const Appearance& look);
 
+/// What neither pattern nor noise explains, over the variance of the pattern, in the pixels that lie near. Noise is
+/// told by neighbouring pixels: it lets them differ, while what is drawn otherwise is off in patches.
+double unexplained_share(const FitProblem& problem, const Appearance& look);
+
 /// Beyond so many grey levels a place counts less: a cover, dust, glare.
 double outlier_limit(const Appearance& look);
+
+/// Off by no more than twice that.
+bool lies_near(const FitProblem& problem, const Appearance& look, const PatternPlace& place);
 
 /// Levels of white and black by least squares at a fixed place.
 void set_levels(const FitProblem& problem, Appearance& look);

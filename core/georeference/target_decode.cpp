@@ -1,35 +1,32 @@
 #include "core/georeference/target_decode.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "core/georeference/target_model.h"
 
 namespace adit {
 namespace {
 
 using coded_pattern::segments;
 
-constexpr int unknowns = segments + 3;  // and the paper's brightness: a plane
-constexpr double from_radius = 0.46;    // white ring
-constexpr double to_radius = 1.12;      // paper around
-constexpr double most_places_across = 26.0;
+constexpr int unknowns = segments + 3;                  // and the paper's brightness: a plane
+constexpr double from_radius = 0.46, to_radius = 1.12;  // white ring, paper around
+using Solution = Eigen::Matrix<double, unknowns, 1>;
+using NormalMatrix = Eigen::Matrix<double, unknowns, unknowns>;
 
 struct Place {
-  Eigen::Matrix<double, unknowns, 1> row;  ///< d grey / d unknowns
+  Solution row;  ///< d grey / d unknowns
   double grey;
 };
 
 std::optional<std::vector<Place>> places_of(const GreyPicture& picture, const TargetPlace& place,
-                                            const TargetTone& tone) {
+                                            const std::vector<PatternPlace>& grid, const TargetTone& tone) {
   const TargetBlur blur(tone.blur_px, tone.bleed, place.shape);
-  const double radius_px = Eigen::JacobiSVD<Eigen::Matrix2d>(place.shape).singularValues()(0);
   std::vector<Place> places;
-  for (const PatternPlace& pattern : pattern_grid(from_radius, to_radius, radius_px, most_places_across)) {
+  places.reserve(grid.size());
+  for (const PatternPlace& pattern : grid) {
+    if (pattern.radius < from_radius || pattern.radius > to_radius) continue;
     const Eigen::Vector2d pixel = place.pixel(pattern.at);
     if (!picture.holds(pixel.x(), pixel.y())) return std::nullopt;
     const TargetDarkness darkness = darkness_at(pattern, blur);
@@ -42,33 +39,42 @@ std::optional<std::vector<Place>> places_of(const GreyPicture& picture, const Ta
   return places;
 }
 
+/// Lower half. A place is darkened by few segments.
+void add_weighed(NormalMatrix& normal, const Solution& row, double weight) {
+  for (int c = 0; c < unknowns; ++c) {
+    if (row(c) == 0.0) continue;
+    for (int r = c; r < unknowns; ++r) normal(r, c) += weight * row(c) * row(r);
+  }
+}
+
 }  // namespace
 
 std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, const TargetPlace& place,
-                                                const TargetTone& tone) {
-  const auto places = places_of(picture, place, tone);
+                                                const std::vector<PatternPlace>& grid, const TargetTone& tone) {
+  const auto places = places_of(picture, place, grid, tone);
   if (!places || places->size() < 2 * unknowns) return std::nullopt;
   constexpr int rounds = 3;
   double limit = std::numeric_limits<double>::infinity();
-  Eigen::Matrix<double, unknowns, 1> solution = Eigen::Matrix<double, unknowns, 1>::Zero();
-  Eigen::Matrix<double, unknowns, unknowns> covariance;
+  Solution solution = Solution::Zero();
+  NormalMatrix covariance;
   for (int round = 0; round < rounds; ++round) {
-    Eigen::Matrix<double, unknowns, unknowns> normal = Eigen::Matrix<double, unknowns, unknowns>::Identity() * 1e-6;
-    Eigen::Matrix<double, unknowns, 1> right = Eigen::Matrix<double, unknowns, 1>::Zero();
+    NormalMatrix normal = NormalMatrix::Identity() * 1e-6;
+    Solution right = Solution::Zero();
     double squares = 0.0, weights = 0.0;
     for (const Place& one : *places) {
       const double off = one.grey - one.row.dot(solution);
       const double weight = std::abs(off) > limit ? limit / std::abs(off) : 1.0;
-      normal.selfadjointView<Eigen::Lower>().rankUpdate(one.row, weight);
+      add_weighed(normal, one.row, weight);
       right += weight * one.grey * one.row;
       squares += weight * off * off;
       weights += weight;
     }
-    const Eigen::Matrix<double, unknowns, unknowns> whole = normal.selfadjointView<Eigen::Lower>();
-    covariance = whole.inverse();
-    solution = covariance * right;
+    const NormalMatrix whole = normal.selfadjointView<Eigen::Lower>();
+    const Eigen::LDLT<NormalMatrix> factors = whole.ldlt();
+    solution = factors.solve(right);
     limit = std::max(3.0, 0.15 * tone.black);
-    if (round > 0) covariance *= squares / std::max(1.0, weights - unknowns);
+    if (round + 1 == rounds)
+      covariance = factors.solve(NormalMatrix::Identity()) * (squares / std::max(1.0, weights - unknowns));
   }
   SegmentDarkness darkness;
   for (int k = 0; k < segments; ++k) {
@@ -120,8 +126,9 @@ std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const
 }
 
 std::optional<DecodedTarget> decode_segments(const GreyPicture& picture, const TargetPlace& place,
-                                             const TargetTone& tone, const std::vector<TargetCode>& codes) {
-  const auto darkness = segment_darkness(picture, place, tone);
+                                             const std::vector<PatternPlace>& grid, const TargetTone& tone,
+                                             const std::vector<TargetCode>& codes) {
+  const auto darkness = segment_darkness(picture, place, grid, tone);
   return darkness ? nearest_code(*darkness, codes) : std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/georeference/target_fit.h"
+#include "core/georeference/target_model.h"
 
 namespace adit {
 
@@ -22,14 +23,14 @@ struct TargetTone {
 };
 
 /// How dark each segment is, 0 as the paper and 1 as the disc: least squares on the ring, with the blur of the edges
-/// and the brightness of the paper as a plane; places off by much count less. Nothing where the ring leaves the
-/// picture.
+/// and the brightness of the paper as a plane; places off by much count less. `grid`: over the whole pattern. Nothing
+/// where the ring leaves the picture.
 struct SegmentDarkness {
   std::array<double, coded_pattern::segments> value{};
   std::array<double, coded_pattern::segments> sigma{};
 };
 std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, const TargetPlace& place,
-                                                const TargetTone& tone);
+                                                const std::vector<PatternPlace>& grid, const TargetTone& tone);
 
 /// The code that lies nearest to the segments, when it is near and no other one is. `codes`: those that may be; empty:
 /// all of target_codes(), and each segment must then be clear by itself.
@@ -37,6 +38,7 @@ std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const
 
 /// Both.
 std::optional<DecodedTarget> decode_segments(const GreyPicture& picture, const TargetPlace& place,
-                                             const TargetTone& tone, const std::vector<TargetCode>& codes);
+                                             const std::vector<PatternPlace>& grid, const TargetTone& tone,
+                                             const std::vector<TargetCode>& codes);
 
 }  // namespace adit

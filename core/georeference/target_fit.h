@@ -46,7 +46,7 @@ struct TargetStart {
   TargetPlace place;
   double likeness = -1.0;  ///< correlation of picture, disc and white ring; below least_start_likeness it is none
 };
-inline constexpr double least_start_likeness = 0.70;
+inline constexpr double least_start_likeness = 0.75;
 
 /// The blob's moments give the disc up to a rotation: the one that looks best.
 TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob);

@@ -41,13 +41,20 @@ struct TargetDarkness {
 };
 TargetDarkness darkness_at(const PatternPlace& place, const TargetBlur& blur);
 
+/// How much of the light is taken away, and how that changes.
+struct Shade {
+  double value = 0.0;
+  double by_log_blur = 0.0;  ///< per small share by which the blur grows
+  double by_bleed = 0.0;
+};
+
 /// Of disc and segments together, each segment as dark as that: 0 as the paper, 1 as the disc. White creeps over the
 /// ends of black, not into what is black all through.
 using Blackness = std::array<double, coded_pattern::segments>;
-double darkness_of(const Blackness& blackness, const PatternPlace& place, const TargetBlur& blur);
+Shade shade_of(const Blackness& blackness, const PatternPlace& place, const TargetBlur& blur);
 
 /// Of the disc alone, for places inside the segments.
-double disc_darkness_at(const PatternPlace& place, const TargetBlur& blur);
+Shade disc_shade_at(const PatternPlace& place, const TargetBlur& blur);
 
 /// Of the four quarters of the disc, the white one first, counter-clockwise: as if each were black.
 std::array<double, 4> quarters_at(const PatternPlace& place, const TargetBlur& blur);
