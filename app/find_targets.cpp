@@ -42,10 +42,9 @@ void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarge
   }
   const RegistrationOptions& registration = state.job.options.registration;
   const auto guess = local_from_scan_guess(state, scan);
-  const TargetMatch match =
-      match_targets(unnamed, control, guess,
-                    {registration.control_sigma_m, registration.guess_sigma_m, rad_from_deg(registration.guess_sigma_deg)},
-                    progress);
+  const TargetMatch match = match_targets(
+      unnamed, control, guess,
+      {registration.control_sigma_m, registration.guess_sigma_m, rad_from_deg(registration.guess_sigma_deg)}, progress);
   std::vector<std::string> id_of(seen.size());
   for (std::size_t k = 0; k < of.size(); ++k) {
     if (match.control[k]) id_of[of[k]] = control[*match.control[k]].id;
@@ -64,10 +63,10 @@ void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarge
     findings.push_back({Severity::warning, subject, "none of the targets the job asks for is found in it",
                         "scan more densely, or nearer to them"});
   } else if (match.ambiguous) {
-    findings.push_back({Severity::decision, subject,
-                        "its " + std::to_string(seen.size()) +
-                            " targets fit the control points in more than one way: none is used",
-                        "give the scan a pose, or name them in targets.csv"});
+    findings.push_back(
+        {Severity::decision, subject,
+         "its " + std::to_string(seen.size()) + " targets fit the control points in more than one way: none is used",
+         "give the scan a pose, or name them in targets.csv"});
   } else if (nameless > 0) {
     findings.push_back({Severity::warning, subject,
                         std::to_string(nameless) + " of " + std::to_string(seen.size()) +

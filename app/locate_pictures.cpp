@@ -60,8 +60,8 @@ LocatedPicture locate_picture(const JobState& state, const JobScan& scan, const 
       findings.push_back(std::move(finding));
     }
   } catch (const Error& error) {
-    findings.push_back({Severity::decision, "picture " + picture.file, "not used: " + error.what_is_wrong(),
-                        error.mend()});
+    findings.push_back(
+        {Severity::decision, "picture " + picture.file, "not used: " + error.what_is_wrong(), error.mend()});
   }
   return located;
 }

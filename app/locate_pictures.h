@@ -12,6 +12,7 @@ namespace adit::app {
 std::vector<LocatedPicture> locate_pictures(const JobState& state, Findings& findings, Progress& progress);
 
 /// Takes up the adjustment's pictures (those with a sight, in order) among all of them.
-std::vector<PictureResult> with_adjusted(std::vector<LocatedPicture> located, const std::vector<PictureResult>& adjusted);
+std::vector<PictureResult> with_adjusted(std::vector<LocatedPicture> located,
+                                         const std::vector<PictureResult>& adjusted);
 
 }  // namespace adit::app

@@ -22,8 +22,8 @@ JobCamera read_camera_of_job(const JsonPlace& place, const fs::path& folder) {
   const auto position = place.at("position").numbers(3);
   for (const double value : position)
     if (!(std::abs(value) <= farthest_m))
-      place.at("position").refuse("the camera is more than 5 m from the scanner",
-                                  "write metres in the scanner's own frame");
+      place.at("position")
+          .refuse("the camera is more than 5 m from the scanner", "write metres in the scanner's own frame");
   camera.position = {position[0], position[1], position[2]};
   const auto turns = place.at("yaw_pitch_roll_deg").numbers(3);
   for (const double turn : turns)
@@ -56,7 +56,8 @@ void check_pictures(const JsonPlace& root, const Job& job) {
         root.refuse("picture " + picture.file + " is of camera \"" + picture.camera + "\", which the job does not have",
                     "use the names in \"cameras\"");
     }
-  const bool any = std::any_of(job.scans.begin(), job.scans.end(), [](const JobScan& s) { return !s.pictures.empty(); });
+  const bool any =
+      std::any_of(job.scans.begin(), job.scans.end(), [](const JobScan& s) { return !s.pictures.empty(); });
   if (any && job.landmarks.file.empty())
     root.refuse("pictures without surveyed targets", "name their table in \"landmarks\"");
 }
@@ -107,7 +108,8 @@ std::vector<JobPicture> read_job_pictures(const JsonPlace& place, const fs::path
 
 void read_job_cameras(const JsonPlace& root, const fs::path& folder, Job& job) {
   if (root.has("cameras")) {
-    for (const JsonPlace& camera : root.at("cameras").items()) job.cameras.push_back(read_camera_of_job(camera, folder));
+    for (const JsonPlace& camera : root.at("cameras").items())
+      job.cameras.push_back(read_camera_of_job(camera, folder));
     check_cameras(root.at("cameras"), job);
   }
   if (root.has("landmarks")) {
@@ -142,7 +144,8 @@ void add_job_cameras(const Job& job, nlohmann::ordered_json& root) {
         {{"name", camera.name},
          {"file", camera.file},
          {"position", {camera.position.x(), camera.position.y(), camera.position.z()}},
-         {"yaw_pitch_roll_deg", {deg(camera.angles.yaw_rad), deg(camera.angles.pitch_rad), deg(camera.angles.roll_rad)}},
+         {"yaw_pitch_roll_deg",
+          {deg(camera.angles.yaw_rad), deg(camera.angles.pitch_rad), deg(camera.angles.roll_rad)}},
          {"sigma_m", camera.sigma_m},
          {"sigma_deg", deg(camera.sigma_rad)}});
   }

@@ -51,8 +51,9 @@ std::string scan_targets_text(const JobState& state) {
                      "|" + state.input_sha256.at(state.job.control);
   for (const JobScan& scan : state.job.scans)
     if (scan.position)
-      text += "|" + scan.name + numbers({scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,
-                                         scan.angles.pitch_rad, scan.angles.roll_rad});
+      text += "|" + scan.name +
+              numbers({scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,
+                       scan.angles.pitch_rad, scan.angles.roll_rad});
   return text;
 }
 

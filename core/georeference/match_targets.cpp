@@ -99,7 +99,8 @@ std::vector<std::array<std::size_t, 3>> triples_of(const std::vector<UnnamedTarg
   const auto area_of = [&](const std::array<std::size_t, 3>& t) {
     return (seen[t[1]].in_scan - seen[t[0]].in_scan).cross(seen[t[2]].in_scan - seen[t[0]].in_scan).norm();
   };
-  std::stable_sort(triples.begin(), triples.end(), [&](const auto& a, const auto& b) { return area_of(a) > area_of(b); });
+  std::stable_sort(triples.begin(), triples.end(),
+                   [&](const auto& a, const auto& b) { return area_of(a) > area_of(b); });
   if (triples.size() > most_triples) triples.resize(most_triples);
   return triples;
 }

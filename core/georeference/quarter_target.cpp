@@ -35,8 +35,7 @@ constexpr std::array<std::array<int, 2>, ring_places> ring_offsets{{{5, 0},
 
 Ring ring_at(const GreyPicture& picture, int u, int v) {
   Ring ring;
-  for (std::size_t n = 0; n < ring.size(); ++n)
-    ring[n] = picture.at(u + ring_offsets[n][0], v + ring_offsets[n][1]);
+  for (std::size_t n = 0; n < ring.size(); ++n) ring[n] = picture.at(u + ring_offsets[n][0], v + ring_offsets[n][1]);
   return ring;
 }
 
@@ -144,7 +143,8 @@ std::optional<CrossFit> adjusted_cross(const GreyPicture& picture, Cross cross, 
     double n = 0.0, squares = 0.0, sum = 0.0, sum2 = 0.0;
     normal(4, 4) += 1.0;  // blur, held loosely: a clean edge tells it
     right(4) += 0.8 - cross.blur_px;
-    for (int v = static_cast<int>(cross.center.y() - radius_px); v <= static_cast<int>(cross.center.y() + radius_px); ++v)
+    for (int v = static_cast<int>(cross.center.y() - radius_px); v <= static_cast<int>(cross.center.y() + radius_px);
+         ++v)
       for (int u = static_cast<int>(cross.center.x() - radius_px); u <= static_cast<int>(cross.center.x() + radius_px);
            ++u) {
         if (u < 0 || v < 0 || u >= picture.width || v >= picture.height) return std::nullopt;
@@ -163,8 +163,8 @@ std::optional<CrossFit> adjusted_cross(const GreyPicture& picture, Cross cross, 
     const Eigen::LDLT<CrossNormal> solver(normal.selfadjointView<Eigen::Lower>());
     fit.cross = cross;
     fit.likeness = std::sqrt(std::max(0.0, 1.0 - squares / spread));
-    fit.covariance = squares / (n - unknowns) *
-                     CrossNormal(solver.solve(CrossNormal::Identity())).topLeftCorner<2, 2>();
+    fit.covariance =
+        squares / (n - unknowns) * CrossNormal(solver.solve(CrossNormal::Identity())).topLeftCorner<2, 2>();
     const CrossRow step = solver.solve(right);
     if (!step.allFinite()) return std::nullopt;
     cross.center += step.head<2>();
@@ -207,7 +207,11 @@ std::optional<FoundQuarters> quarters_at(const GreyPicture& picture, const Corne
   for (; radius_px < most_radius_px; radius_px *= growth) {
     const auto fit = adjusted_cross(picture, cross, radius_px);
     if (!fit || fit->likeness < least_likeness || std::abs(fit->cross.black) < least_contrast) break;
+    // What moves with the radius (rock before a rim) is known no better than that.
+    const Eigen::Vector2d moved =
+        best ? Eigen::Vector2d(fit->cross.center - best->cross.center) : Eigen::Vector2d(0, 0);
     best = fit;
+    best->covariance += moved * moved.transpose();
     cross = fit->cross;
     held_px = radius_px;
   }

@@ -34,7 +34,8 @@ double crossing_rad(const ScanView& view, const TargetPlane& plane, const FoundQ
   Eigen::Vector3d edge[2];
   const Eigen::Vector3d center = plane.met_by(view.direction(quarters.center));
   for (int k = 0; k < 2; ++k)
-    edge[k] = (plane.met_by(view.direction(quarters.center + quarters.radius_px * quarters.edge[k])) - center).normalized();
+    edge[k] =
+        (plane.met_by(view.direction(quarters.center + quarters.radius_px * quarters.edge[k])) - center).normalized();
   return std::acos(std::clamp(edge[0].dot(edge[1]), -1.0, 1.0));
 }
 

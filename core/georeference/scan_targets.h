@@ -25,8 +25,8 @@ struct ScanTarget {
 };
 
 struct ScanTargetOptions {
-  double sphere_radius_m = 0.0;   ///< 0: none are looked for
-  bool quarters = false;          ///< of boards of 6 cm and more
+  double sphere_radius_m = 0.0;  ///< 0: none are looked for
+  bool quarters = false;         ///< of boards of 6 cm and more
   bool coded = false;
   std::vector<TargetCode> codes;  ///< those that may hang there; empty: all
 };

@@ -39,7 +39,8 @@ void take(const PointCloud& cloud, const ScanView& view, Means& means) {
     const Eigen::Vector3f p = view_from_scan * cloud.points[i];
     if (p.z() <= 0.0F || p.squaredNorm() < least_range_m * least_range_m) continue;
     const float u = middle + focal * p.x() / p.z() + 0.5F, v = middle + focal * p.y() / p.z() + 0.5F;
-    if (!(u >= 0.0F && v >= 0.0F && u < static_cast<float>(view.grey.width) && v < static_cast<float>(view.grey.height)))
+    if (!(u >= 0.0F && v >= 0.0F && u < static_cast<float>(view.grey.width) &&
+          v < static_cast<float>(view.grey.height)))
       continue;
     const std::size_t at = view.grey.index(static_cast<int>(u), static_cast<int>(v));
     if (means.count[at] == std::numeric_limits<std::uint16_t>::max()) continue;
@@ -56,7 +57,7 @@ Means means_of(const TileSource& scan, const ScanView& view, Progress& progress)
     if (may_show(scan.box(tile), view.scan_from_view)) tiles.push_back(tile);
   const std::size_t pixels = view.grey.pixels.size();
   Means means{std::vector<Eigen::Vector3f>(pixels, Eigen::Vector3f::Zero()), std::vector<float>(pixels, 0.0F),
-            std::vector<std::uint16_t>(pixels, 0)};
+              std::vector<std::uint16_t>(pixels, 0)};
   for (std::size_t first = 0; first < tiles.size(); first += tiles_at_once) {
     progress.step(first, tiles.size());
     std::vector<PointCloud> read(std::min(tiles_at_once, tiles.size() - first));
@@ -84,7 +85,8 @@ class UsualIntensity {
   }
   /// Between the middles of the bins, so that no step runs through a target.
   double at(float range_m) const {
-    const double place = std::clamp(per_octave * std::log2(static_cast<double>(range_m)) + before - 0.5, 0.0, bins - 1.001);
+    const double place =
+        std::clamp(per_octave * std::log2(static_cast<double>(range_m)) + before - 0.5, 0.0, bins - 1.001);
     const auto b = static_cast<std::size_t>(place);
     const double share = place - static_cast<double>(b);
     return (1.0 - share) * value_[b] + share * value_[b + 1];
@@ -177,8 +179,7 @@ std::vector<Eigen::Matrix3d> views_about() {
   return views;
 }
 
-ScanView scan_view(const TileSource& scan, const Eigen::Matrix3d& scan_from_view, double focal_px,
-                   Progress& progress) {
+ScanView scan_view(const TileSource& scan, const Eigen::Matrix3d& scan_from_view, double focal_px, Progress& progress) {
   constexpr double usual_grey = 90.0;
   ScanView view;
   view.scan_from_view = scan_from_view;

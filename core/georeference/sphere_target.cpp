@@ -32,7 +32,8 @@ double pixels_per_m(const ScanView& view, const Eigen::Vector3d& point) {
 /// of both ends, so that it need not be hit in its very middle.
 bool may_be_cap(const ScanView& view, int u, int v, double radius_m) {
   const double range_m = view.point(u, v).norm();
-  const double reach_px = probe_share * radius_m * pixels_per_m(view, view.point(u, v)) * range_m / (range_m + radius_m);
+  const double reach_px =
+      probe_share * radius_m * pixels_per_m(view, view.point(u, v)) * range_m / (range_m + radius_m);
   if (reach_px < probe_share * least_radius_px) return false;
   const double wanted = probe_height * radius_m, loose = 0.6 * wanted;
   for (int k = 0; k < 4; ++k) {

@@ -13,8 +13,7 @@ TargetPlane plane_of(const std::vector<Eigen::Vector3d>& points) {
   TargetPlane plane;
   for (const Eigen::Vector3d& point : points) plane.middle += point / static_cast<double>(points.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& point : points)
-    spread += (point - plane.middle) * (point - plane.middle).transpose();
+  for (const Eigen::Vector3d& point : points) spread += (point - plane.middle) * (point - plane.middle).transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
   plane.normal = solver.eigenvectors().col(0);
   if (plane.normal.dot(plane.middle) > 0.0) plane.normal = -plane.normal;
@@ -32,9 +31,10 @@ std::optional<TargetPlane> target_plane(const ScanView& view, const Eigen::Vecto
   constexpr double least_cosine = 0.17, least_limit_m = 0.001;
   std::vector<Eigen::Vector3d> points;
   const int side = view.grey.width;
-  for (int v = std::max(0, static_cast<int>(center.y() - reach_px)); v < std::min<double>(side, center.y() + reach_px); ++v)
-    for (int u = std::max(0, static_cast<int>(center.x() - reach_px)); u < std::min<double>(side, center.x() + reach_px);
-         ++u)
+  for (int v = std::max(0, static_cast<int>(center.y() - reach_px)); v < std::min<double>(side, center.y() + reach_px);
+       ++v)
+    for (int u = std::max(0, static_cast<int>(center.x() - reach_px));
+         u < std::min<double>(side, center.x() + reach_px); ++u)
       if (view.has_point(u, v) && inside({u, v})) points.push_back(view.point(u, v));
   if (points.size() < least_points) return std::nullopt;
   TargetPlane plane = plane_of(points);
@@ -62,8 +62,7 @@ PlanePlace place_on_plane(const ScanView& view, const TargetPlane& plane, const 
   const double along_m = plane.rms_m / std::sqrt(static_cast<double>(plane.points)) / cosine;
   const Eigen::Matrix3d covariance =
       by_pixel * covariance_px2 * by_pixel.transpose() + along_m * along_m * direction * direction.transpose();
-  place.sigma_m =
-      std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()(2)));
+  place.sigma_m = std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()(2)));
   return place;
 }
 

@@ -58,7 +58,7 @@ struct JobScan {
   int number = 0;                           ///< which scan of the file, from 1; 0: the only one
   std::optional<Eigen::Vector3d> position;  ///< site, guess
   YawPitchRoll angles;
-  std::vector<JobPicture> pictures;
+  std::vector<JobPicture> pictures{};
 };
 
 /// A file, or a profile of the library.

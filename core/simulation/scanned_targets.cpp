@@ -24,7 +24,8 @@ std::optional<TargetHit> board_hit(const ScannedTarget& target, const Eigen::Vec
   if (cosine <= 0.0) return std::nullopt;
   const double range_m = normal.dot(origin - target.pose.translation()) / cosine;
   if (range_m <= 0.0) return std::nullopt;
-  const Eigen::Vector3d on = target.pose.linear().transpose() * (origin + range_m * direction - target.pose.translation());
+  const Eigen::Vector3d on =
+      target.pose.linear().transpose() * (origin + range_m * direction - target.pose.translation());
   if (on.head<2>().norm() > board_radius_m(target)) return std::nullopt;
   const double x = on.x() / target.radius_m, y = on.y() / target.radius_m;
   const bool black = target.kind == TargetKind::coded ? is_black_at(target.code, x, y) : x * y > 0.0;

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/foundation/angle.h"
 #include "core/foundation/random.h"
@@ -64,25 +64,39 @@ Seen scanned(double step_mrad, std::uint64_t seed) {
   return seen;
 }
 
-TEST(ScanTargetsSlow, Probe) {
-  const Seen seen = scanned(std::getenv("STEP") ? std::atof(std::getenv("STEP")) : 0.6, 1);
+TEST(ScanTargetsSlow, SpheresQuartersAndCodedOnesWithinAMillimetre) {
+  // Points 6 mm apart at 10 m.
+  const Seen seen = scanned(0.6, 1);
+  std::size_t found_count = 0, near_count = 0, within = 0;
   for (const ScannedTarget& hung : seen.hung) {
     const Eigen::Vector3d at = seen.design_from_scan.inverse() * hung.pose.translation();
-    const ScanTarget* best = nullptr;
-    for (const ScanTarget& found : seen.found)
-      if (found.kind == hung.kind && (found.center - at).norm() < 0.05) best = &found;
-    std::printf("%d at %.1f m az %.2f el %.2f: ", static_cast<int>(hung.kind), at.norm(), deg_from_rad(std::atan2(at.y(), at.x())), deg_from_rad(std::asin(at.z()/at.norm())));
-    if (best)
-      std::printf("off %.2f mm (%.2f %.2f %.2f), sigma %.2f, size %.3f, %d px, id %d of %d\n", 1e3 * (best->center - at).norm(), 1e3*(best->center - at).x(), 1e3*(best->center - at).y(), 1e3*(best->center - at).z(), 1e3 * best->sigma_m, best->size_m, best->pixels, best->code_id, id_of_code(hung.code));
-    else
-      std::printf("not found\n");
+    const auto found = std::find_if(seen.found.begin(), seen.found.end(), [&](const ScanTarget& target) {
+      return target.kind == hung.kind && (target.center - at).norm() < 0.05;
+    });
+    if (found == seen.found.end()) continue;
+    ++found_count;
+    const double off_m = (found->center - at).norm();
+    if (at.norm() <= 10.3) {
+      EXPECT_LT(off_m, 4.0 * found->sigma_m) << at.norm();
+      ++near_count;
+      within += off_m < 0.001 ? 1 : 0;
+    }
+    if (hung.kind == TargetKind::coded) {
+      EXPECT_EQ(found->code_id, id_of_code(hung.code));
+    }
+    if (hung.kind == TargetKind::sphere) {
+      EXPECT_NEAR(found->size_m, 0.145, 0.003);
+    }
   }
-  for (const ScanTarget& found : seen.found) {
-    bool right = false;
-    for (const ScannedTarget& hung : seen.hung)
-      right = right || (seen.design_from_scan * found.center - hung.pose.translation()).norm() < 0.05;
-    if (!right) std::printf("wrong: kind %d at %.2f m size %.3f px %d sigma %.2f\n", static_cast<int>(found.kind), found.center.norm(), found.size_m, found.pixels, 1e3 * found.sigma_m);
-  }
+  EXPECT_GE(found_count, 10U);  // of 12; those beyond 10 m are small or stand behind rock in part
+  EXPECT_EQ(within, near_count);
+  EXPECT_GE(near_count, 9U);
+  for (const ScanTarget& found : seen.found)
+    EXPECT_TRUE(std::any_of(seen.hung.begin(), seen.hung.end(),
+                            [&](const ScannedTarget& hung) {
+                              return (seen.design_from_scan * found.center - hung.pose.translation()).norm() < 0.05;
+                            }))
+        << "nothing hangs at " << found.center.transpose();
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ TEST(JobJson, EverythingOfTheDesignComesBackFromItsText) {
     write_file_atomically(folder.path() / file, "x");
   Job job;
   job.name = "whole";
-  job.scans = {{"S1", "s1.ply", 0, std::nullopt, {}}};
+  job.scans = {{"S1", "s1.ply", 0, std::nullopt, {}, {}}};
   job.alignment = "axis.xml";
   job.profiles = {{0.0, "profile.dxf", "", "", {}, false}};
   job.lines = {{"excavation", 0.0}, {"envelope", 0.05, 0.06}, {"clearance", -0.2, 0.0, true}};
