@@ -132,7 +132,8 @@ struct CrossFit {
 };
 
 /// Gauss-Newton within a radius; nothing where it leaves the picture or what it began at.
-std::optional<CrossFit> adjusted_cross(const GreyPicture& picture, Cross cross, double radius_px) {
+std::optional<CrossFit> adjusted_cross(const GreyPicture& picture, const PixelPlace& place_of, Cross cross,
+                                       double radius_px) {
   constexpr int rounds = 8;
   constexpr double farthest_px = 3.0, least_blur_px = 0.3, most_blur_px = 3.0;
   const Eigen::Vector2d began = cross.center;
@@ -148,7 +149,9 @@ std::optional<CrossFit> adjusted_cross(const GreyPicture& picture, Cross cross, 
       for (int u = static_cast<int>(cross.center.x() - radius_px); u <= static_cast<int>(cross.center.x() + radius_px);
            ++u) {
         if (u < 0 || v < 0 || u >= picture.width || v >= picture.height) return std::nullopt;
-        const Eigen::Vector2d pixel(u, v);
+        const auto place = place_of ? place_of(u, v) : std::optional(Eigen::Vector2d(u, v));
+        if (!place) continue;
+        const Eigen::Vector2d& pixel = *place;
         if ((pixel - cross.center).squaredNorm() > radius_px * radius_px) continue;
         const double grey = picture.at(u, v), off = grey - grey_of(cross, pixel, row);
         normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
@@ -199,13 +202,13 @@ Cross first_cross(const GreyPicture& picture, const Corner& corner) {
   return cross;
 }
 
-std::optional<FoundQuarters> quarters_at(const GreyPicture& picture, const Corner& corner) {
+std::optional<FoundQuarters> quarters_at(const GreyPicture& picture, const PixelPlace& place_of, const Corner& corner) {
   constexpr double most_radius_px = 400.0, growth = 1.35, least_crossing_rad = 0.35;
   std::optional<CrossFit> best;
   double radius_px = 5.0, held_px = 0.0;
   Cross cross = first_cross(picture, corner);
   for (; radius_px < most_radius_px; radius_px *= growth) {
-    const auto fit = adjusted_cross(picture, cross, radius_px);
+    const auto fit = adjusted_cross(picture, place_of, cross, radius_px);
     if (!fit || fit->likeness < least_likeness || std::abs(fit->cross.black) < least_contrast) break;
     // What moves with the radius (rock before a rim) is known no better than that.
     const Eigen::Vector2d moved =
@@ -222,6 +225,12 @@ std::optional<FoundQuarters> quarters_at(const GreyPicture& picture, const Corne
   found.center = best->cross.center;
   found.covariance_px2 = best->covariance;
   for (int k = 0; k < 2; ++k) found.edge[k] = {std::cos(best->cross.angle[k]), std::sin(best->cross.angle[k])};
+  // An edge along the pixels' rows lies anywhere between two of them; one that crosses many is known by as much better.
+  for (int k = 0; k < 2; ++k) {
+    const double rows = std::max(1.0, 2.0 * held_px * found.edge[k].cwiseAbs().minCoeff());
+    const Eigen::Vector2d off = found.edge[1 - k] / (std::sqrt(12.0) * rows * std::abs(std::sin(crossing)));
+    found.covariance_px2 += off * off.transpose();
+  }
   found.radius_px = held_px;
   found.likeness = best->likeness;
   found.contrast = std::abs(best->cross.black);
@@ -230,14 +239,14 @@ std::optional<FoundQuarters> quarters_at(const GreyPicture& picture, const Corne
 
 }  // namespace
 
-std::vector<FoundQuarters> find_quarters(const GreyPicture& picture, Progress& progress) {
+std::vector<FoundQuarters> find_quarters(const GreyPicture& picture, const PixelPlace& place_of, Progress& progress) {
   const std::vector<Corner> corners = corners_of(picture, progress);
   std::vector<std::optional<FoundQuarters>> fitted(corners.size());
   parallel_for_each_index(
       corners.size(),
       [&](std::size_t i) {
         progress.check();
-        fitted[i] = quarters_at(picture, corners[i]);
+        fitted[i] = quarters_at(picture, place_of, corners[i]);
       },
       16);
   std::vector<FoundQuarters> found;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct FoundQuarters {
 /// Places where a ring of 5 pixels is bright, dark, bright and dark by turns (ChESS, Bennett and Lasenby 2014), each
 /// adjusted: crossing, both directions, blur, black and white. The radius grows as long as the picture keeps to the
 /// pattern. Those within which fewer than 6 pixels do are left out.
-std::vector<FoundQuarters> find_quarters(const GreyPicture& picture, Progress& progress);
+/// place_of: where the grey value of a pixel stands, nothing for one that none was measured of; empty: in its middle.
+using PixelPlace = std::function<std::optional<Eigen::Vector2d>(int u, int v)>;
+std::vector<FoundQuarters> find_quarters(const GreyPicture& picture, const PixelPlace& place_of, Progress& progress);
 
 }  // namespace adit

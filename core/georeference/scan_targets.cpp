@@ -41,7 +41,11 @@ double crossing_rad(const ScanView& view, const TargetPlane& plane, const FoundQ
 
 void add_quarters(const ScanView& view, std::vector<ScanTarget>& targets, Progress& progress) {
   constexpr double least_size_m = 0.06, most_size_m = 1.0, most_askew_rad = 0.14;
-  for (const FoundQuarters& quarters : find_quarters(view.grey, progress)) {
+  // The points of a pixel lie beside its middle, over a small board all to one side: scan and view have other rasters.
+  const PixelPlace place_of = [&view](int u, int v) {
+    return view.has_point(u, v) ? view.pixel_of(view.point(u, v)) : std::nullopt;
+  };
+  for (const FoundQuarters& quarters : find_quarters(view.grey, place_of, progress)) {
     const auto plane = target_plane(view, quarters.center, quarters.radius_px, [&](const Eigen::Vector2d& pixel) {
       return (pixel - quarters.center).norm() < quarters.radius_px;
     });
