@@ -13,6 +13,7 @@ namespace adit {
 namespace {
 
 constexpr double pattern_end = 1.04;                      // beyond, the paper of small targets ends
+constexpr double least_shape_px2 = 1.0;                   // of radii along and across: nothing is read that small
 constexpr double blur_sigma_px = 0.6, bleed_sigma = 0.7;  // what is known beforehand
 
 /// The picture between the pixels, and by how much it rises over one of them (from half a pixel before to half behind).
@@ -173,7 +174,7 @@ bool refine(const FitProblem& problem, Appearance& look, double limit, int most_
     if (!by.allFinite()) return false;
     Appearance moved = look;
     move(moved, by);
-    if (moved.place.shape.determinant() >= 0.0 || moved.place.tilt.norm() > 0.8) return false;
+    if (!(moved.place.shape.determinant() < -least_shape_px2) || moved.place.tilt.norm() > 0.8) return false;
     const FitSums next = sums_of(problem, moved, limit);
     if (next.cost / std::max(1.0, next.weight) <= last.cost / last.weight) {
       const bool small = by.head<2>().norm() < 2e-3 && by.segment<4>(2).norm() < 5e-3;

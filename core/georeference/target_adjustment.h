@@ -94,7 +94,7 @@ bool lies_near(const FitProblem& problem, const Appearance& look, const PatternP
 void set_levels(const FitProblem& problem, Appearance& look);
 
 /// Gauss-Newton with damping, places off by more than `limit` grey levels weighed down (Huber). False where it leaves
-/// the picture or the pattern turns inside out.
+/// the picture, or the pattern turns inside out or vanishes.
 bool refine(const FitProblem& problem, Appearance& look, double limit, int most_steps, FitSums& last);
 
 /// Covariance of the centre [pixels squared].

@@ -136,7 +136,8 @@ struct InRing {
   InRing(const PatternPlace& place, const TargetBlur& blur) {
     const Eigen::Vector2d around(-place.outwards.y(), place.outwards.x());
     per_segment = place.radius * one_segment_rad / std::sqrt(around.dot(blur.covariance * around));
-    reach = std::min(segments / 2 - 1, static_cast<int>((4.0 + std::abs(blur.bleed)) / per_segment) + 1);
+    constexpr double most = segments / 2 - 1;  // also where a fit on its way makes segments ever so narrow
+    reach = static_cast<int>(std::min(most, (4.0 + std::abs(blur.bleed)) / per_segment + 1.0));
     here = static_cast<int>(place.turn) % segments;
   }
 };

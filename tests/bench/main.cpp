@@ -11,6 +11,7 @@
 
 int main(int argc, char** argv) {
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a table shows when it is there, not when all are
   const std::vector<std::string> wanted(argv + 1, argv + argc);
   const std::vector<std::pair<std::string, void (*)(const std::string&)>> rows{
       {"sections", adit::bench::bench_sections},
