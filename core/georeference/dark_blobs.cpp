@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 
 namespace adit {
 namespace {
@@ -110,48 +111,56 @@ class Labels {
   int row_ = 0;
 };
 
-/// Sums over a square window that moves down: one sum a column, the rows of the window.
-class WindowSums {
+/// Rows of a picture in order, each pixel compared with the mean of a square window about it.
+class DarkPixels {
  public:
-  WindowSums(const GreyPicture& picture, int half_px)
-      : picture_(picture), half_px_(half_px), columns_(static_cast<std::size_t>(picture.width), 0) {
-    for (int v = 0; v < std::min(half_px, picture.height); ++v) change(v, 1);
+  DarkPixels(const GreyPicture& picture, int half_px)
+      : picture_(picture),
+        half_px_(half_px),
+        columns_(static_cast<std::size_t>(picture.width), 0),
+        sums_(static_cast<std::size_t>(picture.width) + 1, 0) {
+    for (int v = 0; v < std::min(half_px, picture.height); ++v) add_row(v);
   }
 
-  /// Goes to row v (in order from 0): thresholds[u] is the mean about (u, v).
-  void means_of_row(int v, std::vector<float>& means) {
-    if (v + half_px_ < picture_.height) change(v + half_px_, 1);
-    if (v - half_px_ - 1 >= 0) change(v - half_px_ - 1, -1);
+  /// Goes to row v, the next one: marks[u] is 1 where the pixel is darker than its window's mean by the contrast.
+  void mark_row(int v, float contrast, std::vector<std::uint8_t>& marks) {
+    if (v + half_px_ < picture_.height) add_row(v + half_px_);
+    if (v - half_px_ - 1 >= 0) remove_row(v - half_px_ - 1);
+    for (std::size_t u = 0; u < columns_.size(); ++u) sums_[u + 1] = sums_[u] + columns_[u];
     const int rows = std::min(v + half_px_, picture_.height - 1) - std::max(v - half_px_, 0) + 1;
-    const int width = picture_.width, whole = 2 * half_px_ + 1;
-    const float of_whole = 1.0F / static_cast<float>(rows * whole);
-    int sum = 0;
-    for (int u = 0; u < std::min(half_px_, width); ++u) sum += column(u);
-    const auto near_rim = [&](int u) {
-      if (u + half_px_ < width) sum += column(u + half_px_);
-      if (u - half_px_ - 1 >= 0) sum -= column(u - half_px_ - 1);
-      const int across = std::min(u + half_px_, width - 1) - std::max(u - half_px_, 0) + 1;
-      means[static_cast<std::size_t>(u)] = static_cast<float>(sum) / static_cast<float>(rows * across);
+    const int width = picture_.width, inside = std::min(half_px_, width), last = std::max(inside, width - half_px_);
+    const std::uint8_t* row = picture_.pixels.data() + picture_.index(0, v);
+    const auto mark_near_rim = [&](int u) {
+      const int left = std::max(u - half_px_, 0), right = std::min(u + half_px_ + 1, width);
+      const float mean = static_cast<float>(sum(left, right)) / static_cast<float>(rows * (right - left));
+      marks[static_cast<std::size_t>(u)] = static_cast<float>(row[u]) < mean - contrast;
     };
-    int u = 0;
-    for (; u < std::min(half_px_ + 1, width); ++u) near_rim(u);
-    for (; u + half_px_ < width; ++u) {
-      sum += column(u + half_px_) - column(u - half_px_ - 1);
-      means[static_cast<std::size_t>(u)] = static_cast<float>(sum) * of_whole;
-    }
-    for (; u < width; ++u) near_rim(u);
+    for (int u = 0; u < inside; ++u) mark_near_rim(u);
+    for (int u = last; u < width; ++u) mark_near_rim(u);
+    const float of_whole = 1.0F / static_cast<float>(rows * (2 * half_px_ + 1));
+    const int *from = sums_.data(), *to = from + 2 * half_px_ + 1;
+    for (int u = inside; u < last; ++u)
+      marks[static_cast<std::size_t>(u)] =
+          static_cast<float>(row[u]) < static_cast<float>(to[u - half_px_] - from[u - half_px_]) * of_whole - contrast;
   }
 
  private:
-  int column(int u) const { return columns_[static_cast<std::size_t>(u)]; }
-  void change(int row, int sign) {
+  int sum(int left, int right) const {
+    return sums_[static_cast<std::size_t>(right)] - sums_[static_cast<std::size_t>(left)];
+  }
+  void add_row(int row) {
     const std::uint8_t* pixels = picture_.pixels.data() + picture_.index(0, row);
-    for (std::size_t u = 0; u < columns_.size(); ++u) columns_[u] += sign * static_cast<int>(pixels[u]);
+    for (std::size_t u = 0; u < columns_.size(); ++u) columns_[u] = static_cast<std::uint16_t>(columns_[u] + pixels[u]);
+  }
+  void remove_row(int row) {
+    const std::uint8_t* pixels = picture_.pixels.data() + picture_.index(0, row);
+    for (std::size_t u = 0; u < columns_.size(); ++u) columns_[u] = static_cast<std::uint16_t>(columns_[u] - pixels[u]);
   }
 
   const GreyPicture& picture_;
   int half_px_;
-  std::vector<int> columns_;
+  std::vector<std::uint16_t> columns_;  ///< over the rows of the window
+  std::vector<int> sums_;               ///< of the columns before each
 };
 
 }  // namespace
@@ -192,23 +201,22 @@ double noise_of(const GreyPicture& picture) {
 std::vector<DarkBlob> dark_blobs(const GreyPicture& picture, const DarkBlobOptions& options) {
   std::vector<DarkBlob> found;
   if (picture.width < 8 || picture.height < 8) return found;
-  WindowSums window(picture, options.window_px / 2);
-  std::vector<float> means(static_cast<std::size_t>(picture.width));
+  DarkPixels pixels(picture, options.window_px / 2);
+  std::vector<std::uint8_t> marks(static_cast<std::size_t>(picture.width));
+  const std::uint8_t *const begin = marks.data(), *const end = begin + marks.size();
   Labels labels;
-  const auto contrast = static_cast<float>(options.least_contrast);
   for (int v = 0; v < picture.height; ++v) {
-    window.means_of_row(v, means);
+    pixels.mark_row(v, static_cast<float>(options.least_contrast), marks);
     labels.begin_row(v);
-    const std::uint8_t* row = picture.pixels.data() + picture.index(0, v);
-    const auto dark = [&](int u) { return static_cast<float>(row[u]) < means[static_cast<std::size_t>(u)] - contrast; };
-    for (int u = 0; u < picture.width;) {
-      if (!dark(u)) {
-        ++u;
-        continue;
-      }
-      const int first = u;
-      while (u < picture.width && dark(u)) ++u;
-      labels.add_run(first, u, first == 0 || u == picture.width || v == 0 || v == picture.height - 1);
+    const auto next = [&](const std::uint8_t* from, std::uint8_t mark) {
+      const void* at = from < end ? std::memchr(from, mark, static_cast<std::size_t>(end - from)) : nullptr;
+      return at ? static_cast<const std::uint8_t*>(at) : end;
+    };
+    for (const std::uint8_t* first = next(begin, 1); first < end;) {
+      const std::uint8_t* const last = next(first, 0);
+      labels.add_run(static_cast<int>(first - begin), static_cast<int>(last - begin),
+                     first == begin || last == end || v == 0 || v == picture.height - 1);
+      first = next(last, 1);
     }
   }
   labels.for_each([&](const Sums& sums) {

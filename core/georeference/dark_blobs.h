@@ -24,7 +24,7 @@ struct DarkBlob {
 };
 
 struct DarkBlobOptions {
-  int window_px = 31;           ///< side of the square whose mean decides
+  int window_px = 31;           ///< side of the square whose mean decides; at most 255
   double least_contrast = 3.0;  ///< grey levels darker than that mean
   double least_area_px2 = 7.0;
   double most_area_px2 = 700.0;

@@ -133,6 +133,7 @@ std::vector<DetectedTarget> detect_targets(const GreyPicture& picture, const Det
       if (!reading) continue;
       enlarge(*reading, scale);
       if (scale > 1.0) *reading = finer_reading(picture, *reading, focal_px);
+      if (fit.codes.empty() && reflection_on_disc(picture, *reading)) continue;
       found.push_back(target_of(*reading));
       if (found.back().diameter_px < options.least_diameter_px) found.pop_back();
     }

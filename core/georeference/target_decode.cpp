@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,9 +16,22 @@ constexpr double from_radius = 0.46, to_radius = 1.12;  // white ring, paper aro
 using Solution = Eigen::Matrix<double, unknowns, 1>;
 using NormalMatrix = Eigen::Matrix<double, unknowns, unknowns>;
 
+/// d grey / d unknowns at a place, of which most are none, and the grey value.
 struct Place {
-  Solution row;  ///< d grey / d unknowns
-  double grey;
+  std::array<int, unknowns> at;
+  std::array<double, unknowns> value;
+  int count = 0;
+  double grey = 0.0;
+
+  void set(int k, double slope) {
+    at[static_cast<std::size_t>(count)] = k;
+    value[static_cast<std::size_t>(count++)] = slope;
+  }
+  double dot(const Solution& solution) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) sum += value[i] * solution(at[i]);
+    return sum;
+  }
 };
 
 std::optional<std::vector<Place>> places_of(const GreyPicture& picture, const TargetPlace& place,
@@ -31,19 +45,25 @@ std::optional<std::vector<Place>> places_of(const GreyPicture& picture, const Ta
     if (!picture.holds(pixel.x(), pixel.y())) return std::nullopt;
     const TargetDarkness darkness = darkness_at(pattern, blur);
     Place one;
-    for (int k = 0; k < segments; ++k) one.row(k) = -tone.black * darkness.segments[static_cast<std::size_t>(k)];
-    one.row.tail<3>() << 1.0, pattern.at.x(), pattern.at.y();
+    for (int k = 0; k < segments; ++k)
+      if (const double dark = darkness.segments[static_cast<std::size_t>(k)]; dark != 0.0)
+        one.set(k, -tone.black * dark);
+    one.set(segments, 1.0);
+    one.set(segments + 1, pattern.at.x());
+    one.set(segments + 2, pattern.at.y());
     one.grey = picture.between(pixel.x(), pixel.y()) + tone.black * darkness.disc;
     places.push_back(one);
   }
   return places;
 }
 
-/// Lower half. A place is darkened by few segments.
-void add_weighed(NormalMatrix& normal, const Solution& row, double weight) {
-  for (int c = 0; c < unknowns; ++c) {
-    if (row(c) == 0.0) continue;
-    for (int r = c; r < unknowns; ++r) normal(r, c) += weight * row(c) * row(r);
+/// Lower half of the normal matrix, and the right side.
+void add_weighed(NormalMatrix& normal, Solution& right, const Place& one, double weight) {
+  for (std::size_t c = 0; c < static_cast<std::size_t>(one.count); ++c) {
+    const double weighed = weight * one.value[c];
+    right(one.at[c]) += weighed * one.grey;
+    for (std::size_t r = c; r < static_cast<std::size_t>(one.count); ++r)
+      normal(one.at[r], one.at[c]) += weighed * one.value[r];
   }
 }
 
@@ -62,10 +82,9 @@ std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, cons
     Solution right = Solution::Zero();
     double squares = 0.0, weights = 0.0;
     for (const Place& one : *places) {
-      const double off = one.grey - one.row.dot(solution);
+      const double off = one.grey - one.dot(solution);
       const double weight = std::abs(off) > limit ? limit / std::abs(off) : 1.0;
-      add_weighed(normal, one.row, weight);
-      right += weight * one.grey * one.row;
+      add_weighed(normal, right, one, weight);
       squares += weight * off * off;
       weights += weight;
     }

@@ -19,10 +19,10 @@ namespace {
 using coded_pattern::disc_radius;
 using coded_pattern::segments;
 
-constexpr double places_across = 26.0;
-constexpr double least_core_likeness = 0.93, sure_core_likeness = 0.985;
+constexpr double places_across = 26.0, places_across_search = 18.0;
+constexpr double least_core_likeness = 0.93;
 constexpr double least_soft_likeness = 0.90, sure_likeness = 0.965, hopeless_likeness = 0.85;
-constexpr double least_likeness = 0.96, least_likeness_covered = 0.98;
+constexpr double least_likeness = 0.96, least_likeness_covered = 0.983;
 // What noise does not explain (unexplained_share), measured: right targets leave up to 0.028, but for single ones, the
 // likest letters and bolts 0.027 and more.
 constexpr double most_unexplained = 0.027;
@@ -30,6 +30,7 @@ constexpr double most_unexplained = 0.027;
 constexpr double least_bleed = -0.5, most_bleed = 0.75;
 // Shares of places that must lie near the fitted pattern. What is no target, or another code, leaves more of them.
 constexpr double least_core_near = 0.80, least_soft_near = 0.70, least_disc_near = 0.93;
+constexpr double least_disc_near_covered = 0.98;
 constexpr double least_near_of_any = 0.97, least_near_of_known = 0.80;
 constexpr double least_amplitude = 5.0;  // grey levels between white and black
 
@@ -48,52 +49,69 @@ struct DiscMoments {
   }
 };
 
-/// How the picture looks like disc and white ring at a place; `darkness` of each place of the grid.
-double likeness_of(const GreyPicture& picture, const TargetPlace& place, const std::vector<PatternPlace>& grid,
-                   const std::vector<double>& darkness) {
-  Correlation correlation;
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    const Eigen::Vector2d pixel = place.pixel(grid[i].at);
-    if (!picture.holds(pixel.x(), pixel.y())) return -1.0;
-    correlation.add(picture.between(pixel.x(), pixel.y()), -darkness[i]);
+/// Disc and white ring as they look in every rotation, but for the blur, which is that of `upright` (pixels for one
+/// outer radius).
+class DiscLooks {
+ public:
+  explicit DiscLooks(const Eigen::Matrix2d& upright) {
+    static const std::vector<PatternPlace> grid = pattern_grid(0.0, core_radius, 1e9, 10.0);
+    const TargetBlur blur(usual_blur_px, 0.0, upright);
+    double sum = 0.0;
+    places_.reserve(grid.size());
+    for (const PatternPlace& at : grid) {
+      places_.push_back({at.at, disc_shade_at(at, blur).value});
+      sum += places_.back().darkness;
+    }
+    for (Place& place : places_) {
+      place.darkness -= sum / static_cast<double>(places_.size());
+      squares_ += place.darkness * place.darkness;
+    }
   }
-  return correlation.value();
-}
 
-/// Disc and white ring alone, without perspective, with two blurs to begin with: the better one. Of a small target
-/// both, and one of a larger scale: blur and bleeding leave open how large its disc is.
-std::vector<Appearance> fit_core(const GreyPicture& picture, const TargetPlace& start) {
-  constexpr int first_steps = 3, more_steps = 5;
-  constexpr double small_px = 14.0, larger = 1.2, hopeless = 0.80;
-  const double radius_px = long_radius_px(start.shape);
-  const FitProblem problem{&picture, pattern_grid(0.0, core_radius, radius_px, 14.0), false, {}, true, {0.0, 0.0},
-                           1e-3};
-  std::vector<Appearance> fitted;
-  double best = 0.0;
-  for (const double blur_px : {0.7, 1.3}) {
-    Appearance look;
-    look.place = start;
-    look.blur_px = blur_px;
-    set_levels(problem, look);
-    FitSums last;
-    if (look.black < least_amplitude || !refine(problem, look, 1e9, first_steps, last) ||
-        quality_of(problem, look).likeness < hopeless || !refine(problem, look, 1e9, more_steps, last))
-      continue;
-    const FitQuality quality = quality_of(problem, look);
-    const double likeness = quality.likeness;
-    if (look.black < least_amplitude || likeness <= least_core_likeness || quality.near < least_core_near) continue;
-    fitted.insert(likeness > best ? fitted.begin() : fitted.end(), look);
-    best = std::max(best, likeness);
-    if (best > sure_core_likeness && radius_px > small_px) break;
+  /// Correlation with the picture, without perspective; -1 where it leaves the picture.
+  double likeness(const GreyPicture& picture, const Eigen::Vector2d& center, const Eigen::Matrix2d& shape) const {
+    const double reach_u = core_radius * shape.row(0).norm(), reach_v = core_radius * shape.row(1).norm();
+    if (!picture.holds(center.x() - reach_u, center.y() - reach_v) ||
+        !picture.holds(center.x() + reach_u, center.y() + reach_v))
+      return -1.0;
+    double sum = 0.0, squares = 0.0, mixed = 0.0;
+    for (const Place& place : places_) {
+      const double grey = picture.between(center.x() + shape(0, 0) * place.at.x() + shape(0, 1) * place.at.y(),
+                                          center.y() + shape(1, 0) * place.at.x() + shape(1, 1) * place.at.y());
+      sum += grey;
+      squares += grey * grey;
+      mixed += grey * place.darkness;
+    }
+    const double variance = squares - sum * sum / static_cast<double>(places_.size());
+    return variance > 0.0 && squares_ > 0.0 ? -mixed / std::sqrt(variance * squares_) : 0.0;
   }
-  if (fitted.empty()) return fitted;
-  if (radius_px > small_px) {
-    fitted.resize(1);
-    return fitted;
-  }
-  fitted.push_back(fitted.front());
-  fitted.back().place.shape *= larger;
-  return fitted;
+
+ private:
+  struct Place {
+    Eigen::Vector2d at;
+    double darkness;  ///< less the mean
+  };
+  std::vector<Place> places_;
+  double squares_ = 0.0;
+};
+
+/// Disc and white ring alone, without perspective, from a blur to begin with. Nothing where they do not fit.
+std::optional<Appearance> fit_core(const FitProblem& problem, const TargetPlace& start, double blur_px) {
+  constexpr int more_steps = 7;
+  constexpr double least_at_start = 0.80, least_after_a_step = 0.88;  // right ones: 0.90 and 0.93
+  Appearance look;
+  look.place = start;
+  look.blur_px = blur_px;
+  set_levels(problem, look);
+  FitSums last;
+  if (look.black < least_amplitude || quality_of(problem, look).likeness < least_at_start ||
+      !refine(problem, look, 1e9, 1, last) || quality_of(problem, look).likeness < least_after_a_step ||
+      !refine(problem, look, 1e9, more_steps, last))
+    return std::nullopt;
+  const FitQuality quality = quality_of(problem, look);
+  if (look.black < least_amplitude || quality.likeness <= least_core_likeness || quality.near < least_core_near)
+    return std::nullopt;
+  return look;
 }
 
 /// Before the code is known: place and darkness of the segments by turns. The rims of the ring hold the scale, which
@@ -134,7 +152,7 @@ std::optional<Whole> fit_whole(const GreyPicture& picture, const Appearance& cor
   constexpr int turns = 2;
   const double radius_px = long_radius_px(core.place.shape);
   Whole whole{{&picture,
-               pattern_grid(0.0, whole_radius, radius_px, places_across),
+               pattern_grid(0.0, whole_radius, radius_px, places_across_search),
                true,
                {},
                false,
@@ -148,6 +166,16 @@ std::optional<Whole> fit_whole(const GreyPicture& picture, const Appearance& cor
   if (quality.near < least_soft_near || quality.core_near < least_core_near) return std::nullopt;
   whole.likeness = quality.likeness;
   return whole;
+}
+
+/// With the perspective that fits best.
+std::optional<Whole> best_whole(const GreyPicture& picture, const Appearance& core, double focal_px) {
+  std::optional<Whole> best;
+  for (const Eigen::Vector2d& tilt : possible_tilts(core.place.shape, focal_px)) {
+    auto whole = fit_whole(picture, core, tilt, focal_px);
+    if (whole && (!best || whole->likeness > best->likeness)) best = std::move(whole);
+  }
+  return best;
 }
 
 /// True when three quarters of the disc are black and the one that should be is white. Rings and discs of other things
@@ -188,6 +216,7 @@ FitProblem of_near_places(const FitProblem& problem, const Appearance& look) {
 /// The code, and everything adjusted to it. Nothing where the code does not stay the same.
 std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, const std::vector<TargetCode>& codes) {
   constexpr int more_turns = 2, steps = 10, last_steps = 4;
+  problem.grid = pattern_grid(0.0, whole_radius, long_radius_px(look.place.shape), places_across);
   if (!refine_with_any_segments(problem, look, more_turns)) return std::nullopt;
   const auto first =
       decode_segments(*problem.picture, look.place, problem.grid, {look.blur_px, look.bleed, look.black}, codes);
@@ -199,9 +228,10 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
   const FitQuality quality = quality_of(problem, look);
   const double least_near = codes.empty() ? least_near_of_any : least_near_of_known;
   // What is covered in part must fit the better elsewhere.
-  const double wanted = quality.near < least_near_of_any ? least_likeness_covered : least_likeness;
-  if (quality.likeness < wanted || quality.near < least_near || quality.core_near < least_disc_near)
-    return std::nullopt;
+  const bool covered = quality.near < least_near_of_any;
+  const double wanted = covered ? least_likeness_covered : least_likeness;
+  const double wanted_near = covered ? least_disc_near_covered : least_disc_near;
+  if (quality.likeness < wanted || quality.near < least_near || quality.core_near < wanted_near) return std::nullopt;
   const FitProblem uncovered = of_near_places(problem, look);
   if (!refine(uncovered, look, outlier_limit(look), last_steps, last)) return std::nullopt;
   if (look.bleed < least_bleed || look.bleed > most_bleed || unexplained_share(problem, look) > most_unexplained)
@@ -224,12 +254,10 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
 TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob) {
   static const DiscMoments disc;
   constexpr int rotations = 12;
+  constexpr double apart_rad = 2.0 * pi / rotations, hopeless = 0.55;
   const Eigen::Matrix2d root = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(blob.covariance_px2).operatorSqrt();
   const Eigen::Matrix2d upright = root / disc_radius;
-  static const std::vector<PatternPlace> grid = pattern_grid(0.0, core_radius, 1e9, 10.0);
-  const TargetBlur blur(usual_blur_px, 0.0, 2.0 * upright);  // a disc has twice its standard deviation as radius
-  std::vector<double> darkness;
-  for (const PatternPlace& at : grid) darkness.push_back(disc_shade_at(at, blur).value);
+  const DiscLooks looks(2.0 * upright);  // a disc has twice its standard deviation as radius
   TargetStart best;
   double best_turn = 0.0;
   const auto look = [&](double turn) {
@@ -238,12 +266,11 @@ TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob) {
     TargetPlace place;
     place.shape = upright * mirror * disc.whitening;
     place.center = blob.center - place.shape * disc.centroid * disc_radius;
-    const double likeness = likeness_of(picture, place, grid, darkness);
+    const double likeness = looks.likeness(picture, place.center, place.shape);
     if (likeness <= best.likeness) return;
     best = {place, likeness};
     best_turn = turn;
   };
-  constexpr double apart_rad = 2.0 * pi / rotations, hopeless = 0.55;
   for (int k = 0; k < rotations; ++k) look(apart_rad * k);
   if (best.likeness < hopeless) return best;
   const double middle_rad = best_turn;
@@ -282,25 +309,63 @@ TargetReading finer_reading(const GreyPicture& picture, const TargetReading& rea
   return finer;
 }
 
+bool reflection_on_disc(const GreyPicture& picture, const TargetReading& reading) {
+  constexpr double across = 40.0, as_bright_as_can_be = 250.0, black_through = 0.97, most_light = 0.3,
+                   most_share = 0.02;
+  const FitProblem disc{&picture, pattern_grid(0.0, core_radius, long_radius_px(reading.place.shape), across),
+                        false,    {},
+                        true,     {0.0, 0.0},
+                        1e-3};
+  Appearance look;
+  look.place = reading.place;
+  look.blur_px = reading.blur_px;
+  look.bleed = reading.bleed;
+  set_levels(disc, look);
+  if (look.white < as_bright_as_can_be) return false;
+  const TargetBlur blur(look.blur_px, look.bleed, look.place.shape);
+  double black = 0.0, light = 0.0;
+  for (const PatternPlace& place : disc.grid) {
+    const Eigen::Vector2d pixel = look.place.pixel(place.at);
+    if (!picture.holds(pixel.x(), pixel.y()) || disc_shade_at(place, blur).value < black_through) continue;
+    black += 1.0;
+    light += picture.between(pixel.x(), pixel.y()) > look.white - look.black * (1.0 - most_light) ? 1.0 : 0.0;
+  }
+  return light > most_share * black;
+}
+
 std::optional<TargetReading> read_target(const GreyPicture& picture, const TargetStart& start,
                                          const TargetFitOptions& options) {
+  constexpr double small_px = 14.0, larger = 1.2;
   if (start.likeness < least_start_likeness) return std::nullopt;
-  const std::vector<Appearance> cores = fit_core(picture, start.place);
   const double focal_px =
       options.focal_length_px > 0.0 ? options.focal_length_px : std::max(picture.width, picture.height);
-  std::optional<Whole> best;
-  for (const Appearance& core : cores) {
-    // Sure already, or hopeless: the larger scale, last, helps only where the others nearly fit.
-    const bool last = cores.size() > 1 && &core == &cores.back();
-    if (best && best->likeness > sure_likeness) break;
-    if (last && (!best || best->likeness < hopeless_likeness)) break;
-    for (const Eigen::Vector2d& tilt : possible_tilts(core.place.shape, focal_px)) {
-      const auto whole = fit_whole(picture, core, tilt, focal_px);
-      if (whole && (!best || whole->likeness > best->likeness)) best = whole;
-    }
+  const double radius_px = long_radius_px(start.place.shape);
+  const FitProblem disc{&picture, pattern_grid(0.0, core_radius, radius_px, 14.0), false, {}, true, {0.0, 0.0}, 1e-3};
+  std::optional<Whole> unsure;
+  // A sure one is read at once, the best of the others last.
+  const auto reading_of = [&](const Appearance& core) -> std::optional<TargetReading> {
+    auto whole = best_whole(picture, core, focal_px);
+    if (!whole) return std::nullopt;
+    if (whole->likeness > sure_likeness)
+      if (auto reading = read_whole(whole->problem, whole->look, options.codes)) return reading;
+    if (!unsure || whole->likeness > unsure->likeness) unsure = std::move(whole);
+    return std::nullopt;
+  };
+  std::optional<Appearance> first;
+  for (const double blur_px : {0.7, 1.3}) {
+    const auto core = fit_core(disc, start.place, blur_px);
+    if (core)
+      if (auto reading = reading_of(*core)) return reading;
+    if (!first) first = core;
+    if (!first) return std::nullopt;  // what no sharp disc resembles, no blurred one does
   }
-  return best && best->likeness >= least_soft_likeness ? read_whole(best->problem, best->look, options.codes)
-                                                       : std::nullopt;
+  // Blur and bleeding leave open how large a small disc is: where it nearly fits, a larger one may.
+  if (radius_px <= small_px && unsure && unsure->likeness >= hopeless_likeness) {
+    first->place.shape *= larger;
+    if (auto reading = reading_of(*first)) return reading;
+  }
+  if (!unsure || unsure->likeness < least_soft_likeness || unsure->likeness > sure_likeness) return std::nullopt;
+  return read_whole(unsure->problem, unsure->look, options.codes);
 }
 
 }  // namespace adit

@@ -55,6 +55,10 @@ TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob);
 /// where that fails. Places along the edges count.
 TargetReading finer_reading(const GreyPicture& picture, const TargetReading& reading, double focal_length_px);
 
+/// True where light lies over some of the disc and the paper is as bright as the picture can be: there, a reflection
+/// may hide black segments without a trace, so that another code shows.
+bool reflection_on_disc(const GreyPicture& picture, const TargetReading& reading);
+
 /// The target at a start; nothing where there is none, or it cannot be read without doubt. The start is refined on disc
 /// and white ring; the segments' darkness is solved for by least squares, blur and neighbours considered; then place,
 /// perspective, blur and brightness are adjusted together on the whole pattern.

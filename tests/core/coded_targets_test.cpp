@@ -131,6 +131,38 @@ TEST(DetectTargets, DarkBlurredAndPartlyHidden) {
   EXPECT_EQ(found[0].id, 21);
 }
 
+TEST(DetectTargets, AReflectionOnWhitePaperMakesNoOtherCode) {
+  // Paper as bright as the picture can be, light beyond a line across the disc: black segments vanish without a trace.
+  // Only where the light lies over the white quarter alone can nobody tell.
+  tests::DrawingOptions bright;
+  bright.white = 300.0;
+  const Eigen::Vector2d at(300.4, 250.7);
+  const DrawnTarget target = drawn_target(code_of_id(13), at, 80.0, 0.2, 0.3, 1.0, 1000.0, middle);
+  const GreyPicture clear = drawn({target}, bright);
+  int read = 0;
+  for (int k = 0; k < 24; ++k)
+    for (const double off_px : {4.0, 6.0, 8.0}) {
+      const Eigen::Vector2d towards(std::cos(2.0 * pi * k / 24), std::sin(2.0 * pi * k / 24));
+      GreyPicture lit = clear;
+      double black = 0.0, black_lit = 0.0;
+      for (int v = 180; v < 320; ++v)
+        for (int u = 230; u < 370; ++u) {
+          const double light = 125.0 * (towards.dot(Eigen::Vector2d(u, v) - at) - off_px);
+          const int grey = lit.at(u, v) + static_cast<int>(std::clamp(light, 0.0, 255.0));
+          const bool of_disc = lit.at(u, v) < 60 && (Eigen::Vector2d(u, v) - at).norm() < 15.0;
+          black += of_disc ? 1.0 : 0.0;
+          black_lit += of_disc && grey > 200 ? 1.0 : 0.0;
+          lit.pixels[lit.index(u, v)] = static_cast<std::uint8_t>(std::min(255, grey));
+        }
+      for (const DetectedTarget& found : found_in(lit)) {
+        ++read;
+        EXPECT_TRUE(found.id == 13 || black_lit < 0.04 * black) << "light from " << k << " beyond " << off_px << " px";
+      }
+    }
+  EXPECT_EQ(found_in(clear).size(), 1U);
+  EXPECT_LT(read, 72);
+}
+
 TEST(DetectTargets, NothingWhereThereIsNone) {
   const auto empty = [](const auto& background) {
     return found_in(tests::draw_targets(width, height, {}, {}, background)).empty();
