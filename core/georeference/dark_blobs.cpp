@@ -138,10 +138,9 @@ class DarkPixels {
     for (int u = 0; u < inside; ++u) mark_near_rim(u);
     for (int u = last; u < width; ++u) mark_near_rim(u);
     const float of_whole = 1.0F / static_cast<float>(rows * (2 * half_px_ + 1));
-    const int *from = sums_.data(), *to = from + 2 * half_px_ + 1;
     for (int u = inside; u < last; ++u)
       marks[static_cast<std::size_t>(u)] =
-          static_cast<float>(row[u]) < static_cast<float>(to[u - half_px_] - from[u - half_px_]) * of_whole - contrast;
+          static_cast<float>(row[u]) < static_cast<float>(sum(u - half_px_, u + half_px_ + 1)) * of_whole - contrast;
   }
 
  private:

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/foundation/angle.h"
+#include "io/atomic_file.h"
+#include "io/grey_picture_file.h"
 #include "render/photograph.h"
 #include "tests/core/profile_shapes.h"
 
@@ -72,6 +75,18 @@ PictureOfTargets take_picture(const render::CameraScene& scene, const CameraLens
       taken.targets.push_back(truth);
   }
   return taken;
+}
+
+void keep(const GreyPicture& picture, const std::string& name) {
+  if (const char* folder = std::getenv("ADIT_BENCH_PICTURES"))
+    io::write_file_atomically(std::string(folder) + "/" + name + ".png", io::png_of(picture));
+}
+
+DetectOptions options_of(const CameraLens& lens, int most_id) {
+  DetectOptions options;
+  options.fit.focal_length_px = lens.focal_px();
+  for (int id = 1; id <= most_id && most_id < target_code_count; ++id) options.fit.codes.push_back(code_of_id(id));
+  return options;
 }
 
 }  // namespace adit::bench

@@ -1,7 +1,7 @@
 #pragma once
 // Pictures of a simulated tunnel with coded targets, and what is true of them.
 
-#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/georeference/camera_pose.h"
@@ -36,5 +36,14 @@ struct PictureOfTargets {
 /// Renders and spoils.
 PictureOfTargets take_picture(const render::CameraScene& scene, const CameraLens& lens, const Pose& site_from_camera,
                               double lamp_reach_m, const CameraEffects& effects);
+
+/// Into the folder that ADIT_BENCH_PICTURES names, if it does.
+void keep(const GreyPicture& picture, const std::string& name);
+
+/// Of the first ids; of any where that is target_code_count.
+DetectOptions options_of(const CameraLens& lens, int most_id);
+
+/// The paper's tables 1 to 4 on stations along the tunnel, POSIT beside OpenCV's solvePnP, and the time it takes.
+void bench_target_stations(const RockTunnel& tunnel, const RockMesh& rock);
 
 }  // namespace adit::bench

@@ -1,21 +1,14 @@
-// Coded targets: found in rendered pictures over the stated range, cameras placed by them along a tunnel, POSIT beside
-// OpenCV's solvePnP, and the time it takes.
-
-#include <tbb/global_control.h>
+// Coded targets: found in rendered pictures over the stated range, and none where none is. The stations that they place
+// are in target_stations_bench.cpp.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <opencv2/calib3d.hpp>
-#include <set>
 
 #include "core/foundation/angle.h"
 #include "core/foundation/random.h"
-#include "core/georeference/posit.h"
 #include "core/simulation/ray_cast.h"
-#include "io/atomic_file.h"
-#include "io/grey_picture_file.h"
 #include "render/canvas.h"
 #include "render/gl_context.h"
 #include "tests/bench/bench.h"
@@ -123,18 +116,6 @@ CameraEffects drawn_effects(const Random& random, std::uint64_t& k, std::uint64_
   effects.dust = static_cast<int>(random.uniform(k++, 0.0, 60.0));
   effects.glare = static_cast<int>(random.uniform(k++, 0.0, 4.0));
   return effects;
-}
-
-void keep(const GreyPicture& picture, const std::string& name) {
-  if (const char* folder = std::getenv("ADIT_BENCH_PICTURES"))
-    io::write_file_atomically(std::string(folder) + "/" + name + ".png", io::png_of(picture));
-}
-
-DetectOptions options_of(const CameraLens& lens, int most_id) {
-  DetectOptions options;
-  options.fit.focal_length_px = lens.focal_px();
-  for (int id = 1; id <= most_id && most_id < target_code_count; ++id) options.fit.codes.push_back(code_of_id(id));
-  return options;
 }
 
 void print_detections(const char* title, const Detections& d) {
@@ -247,134 +228,6 @@ void bench_decoys(const RockTunnel& tunnel, const RockMesh& rock) {
       pictures, any, known);
 }
 
-/// Differences of two poses as the paper prints them: angles about the axes of the first station, and a shift.
-struct PoseError {
-  Eigen::Vector3d angles_deg, shift_m;
-};
-PoseError error_of(const Pose& a_found, const Pose& b_found, const Pose& a_true, const Pose& b_true) {
-  const Pose found = a_found.inverse() * b_found, truth = a_true.inverse() * b_true;
-  return {rotation_vector(found.linear() * truth.linear().transpose()) * deg_from_rad(1.0),
-          found.translation() - truth.translation()};
-}
-
-struct Station {
-  Pose truth, refined, posit;
-  CameraPose pose;
-  std::vector<LandmarkSight> sights;
-  GreyPicture picture;
-};
-
-void bench_stations(const RockTunnel& tunnel, const RockMesh& rock) {
-  const CameraLens lens = picture_lens();
-  Progress progress;
-  render::CameraScene scene{rock.mesh, rock.albedo, {}};
-  std::map<int, Eigen::Vector3d> database;
-  const Random random(3, 63);
-  const double places[] = {-6.2, 5.9, -4.4, 4.6, -2.4, 2.2, 0.3};
-  constexpr double free_m = 0.14;  // before the rock, so that no rim of one that is turned sinks into it
-  int id = 1;
-  for (double s = 14.0; s < 50.0; s += 0.7, ++id) {
-    render::SceneTarget target;
-    target.code = code_of_id(id);
-    target.radius_m = 0.11;
-    const auto n = static_cast<std::uint64_t>(id);
-    const Pose pose = place_facing_back(tunnel, s, places[id % 7] + 0.3 * random.uniform(n, -1.0, 1.0), free_m);
-    target.site_from_target = pose;
-    scene.targets.push_back(target);
-    const Eigen::Vector3d noise(random.normal(1000 + 3 * n), random.normal(1001 + 3 * n), random.normal(1002 + 3 * n));
-    database[id] = pose.translation() + 0.001 * noise;  // surveyed to a millimetre
-  }
-  std::vector<Station> stations;
-  for (int i = 0; i < 5; ++i) {
-    Station station;
-    const double turn = 0.12 * random.uniform(200 + static_cast<std::uint64_t>(i), -1.0, 1.0);
-    station.truth =
-        camera_in(tunnel, 12.0 + 5.3 * i, 0.4 * (i % 2 == 0 ? 1.0 : -1.0), 1.6, {0.03 * i - 0.05, turn, 0.02 * i});
-    CameraEffects effects;
-    effects.seed = 100 + static_cast<std::uint64_t>(i);
-    effects.dust = 20;
-    effects.exposure = 0.9;
-    const PictureOfTargets taken = take_picture(scene, lens, station.truth, 6.0, effects);
-    station.picture = taken.picture;
-    keep(station.picture, "station_" + std::to_string(i + 1));
-    for (const DetectedTarget& target : detect_targets(station.picture, options_of(lens, target_code_count), progress))
-      if (const auto found = database.find(target.id); found != database.end())
-        station.sights.push_back({std::to_string(target.id), found->second, target.center, target.sigma_px});
-    CameraPoseOptions options;
-    options.landmark_sigma_m = 0.001;
-    station.pose = locate_camera(lens, station.sights, options);
-    station.refined = station.pose.site_from_camera;
-    station.posit = station.pose.posit.site_from_camera;
-    stations.push_back(std::move(station));
-  }
-  std::printf(
-      "\n### Cameras placed by targets: the paper's table 4 again\n\nFive stations 5.3 m apart in a curved tunnel, targets of 220 mm (A3), surveyed to 1 mm. Theirs: 0.041 m and 0.115 degrees at most.\n\n"
-      "| stations | POSIT alone: angles, degrees | shift m | refined: angles, degrees | shift m |\n|---|---|---|---|---|\n");
-  double most_angle[2] = {0, 0}, most_shift[2] = {0, 0};
-  for (const auto& [a, b] : {std::pair(0, 1), std::pair(0, 2), std::pair(0, 3), std::pair(0, 4), std::pair(1, 2),
-                             std::pair(2, 3), std::pair(3, 4)}) {
-    const Station &first = stations[static_cast<std::size_t>(a)], &second = stations[static_cast<std::size_t>(b)];
-    std::printf("| %d-%d |", a + 1, b + 1);
-    for (int way = 0; way < 2; ++way) {
-      const PoseError error = way == 0 ? error_of(first.posit, second.posit, first.truth, second.truth)
-                                       : error_of(first.refined, second.refined, first.truth, second.truth);
-      const char* form =
-          way == 0 ? " %+.3f %+.3f %+.3f | %+.3f %+.3f %+.3f |" : " %+.4f %+.4f %+.4f | %+.4f %+.4f %+.4f |";
-      std::printf(form, error.angles_deg.x(), error.angles_deg.y(), error.angles_deg.z(), error.shift_m.x(),
-                  error.shift_m.y(), error.shift_m.z());
-      most_angle[way] = std::max(most_angle[way], error.angles_deg.cwiseAbs().maxCoeff());
-      most_shift[way] = std::max(most_shift[way], error.shift_m.cwiseAbs().maxCoeff());
-    }
-    std::printf("\n");
-  }
-  std::printf(
-      "\nAt most: POSIT alone %.3f degrees, %.4f m; refined %.4f degrees, %.4f m. Stations off the truth, refined:",
-      most_angle[0], most_shift[0], most_angle[1], most_shift[1]);
-  for (const Station& station : stations) {
-    Vector6d off;
-    off.head<3>() = station.refined.translation() - station.truth.translation();
-    off.tail<3>() = rotation_vector(station.refined.linear() * station.truth.linear().transpose());
-    std::printf(" %.1f mm %.4f deg (%zu targets, %.2f sigmas);", 1e3 * off.head<3>().norm(),
-                deg_from_rad(off.tail<3>().norm()), station.pose.used(),
-                std::sqrt(off.dot(station.pose.covariance.inverse() * off) / 6.0));
-  }
-  std::printf(
-      "\n\n| on one core | targets | find and read ms | pose ms | of it POSIT ms | solvePnP (SQPnP) ms | refined and solvePnP differ by |\n|---|---|---|---|---|---|---|\n");
-  const tbb::global_control one_core(tbb::global_control::max_allowed_parallelism, 1);
-  for (const Station& station : stations) {
-    const DetectOptions options = options_of(lens, target_code_count);
-    const double find_s = seconds_of(5, [&] { static_cast<void>(detect_targets(station.picture, options, progress)); });
-    const double pose_s = seconds_of(20, [&] { static_cast<void>(locate_camera(lens, station.sights, {})); });
-    std::vector<Eigen::Vector3d> points;
-    std::vector<Eigen::Vector2d> seen;
-    std::vector<cv::Point3d> object;
-    std::vector<cv::Point2d> pixels;
-    for (const LandmarkSight& sight : station.sights) {
-      points.push_back(sight.site);
-      seen.push_back(*place_of(lens, sight.pixel));
-      object.emplace_back(sight.site.x(), sight.site.y(), sight.site.z());
-      pixels.emplace_back(sight.pixel.x(), sight.pixel.y());
-    }
-    const double posit_s = seconds_of(50, [&] { static_cast<void>(posit(points, seen)); });
-    const cv::Mat matrix = (cv::Mat_<double>(3, 3) << lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1);
-    const cv::Mat bends = (cv::Mat_<double>(1, 5) << lens.k1, lens.k2, lens.p1, lens.p2, lens.k3);
-    cv::Mat turn, shift;
-    const double peer_s =
-        seconds_of(50, [&] { cv::solvePnP(object, pixels, matrix, bends, turn, shift, false, cv::SOLVEPNP_SQPNP); });
-    cv::Mat rotation;
-    cv::Rodrigues(turn, rotation);
-    Pose peer = Pose::Identity();
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) peer.linear()(r, c) = rotation.at<double>(r, c);
-      peer.translation()(r) = shift.at<double>(r);
-    }
-    std::printf("| %td | %zu | %.1f | %.2f | %.3f | %.3f | %.2f mm, %.4f deg |\n", &station - stations.data() + 1,
-                station.sights.size(), 1e3 * find_s, 1e3 * pose_s, 1e3 * posit_s, 1e3 * peer_s,
-                1e3 * distance_between_m(peer.inverse(), station.refined),
-                deg_from_rad(rotation_between_rad(peer.inverse(), station.refined)));
-  }
-}
-
 }  // namespace
 
 void bench_targets() {
@@ -382,7 +235,7 @@ void bench_targets() {
   context->make_current();
   const RockTunnel tunnel = picture_tunnel(1);
   const RockMesh rock = rock_mesh(tunnel, 2.0, 62.0, 0.12);
-  bench_stations(tunnel, rock);
+  bench_target_stations(tunnel, rock);
   bench_detection(tunnel, rock);
   bench_decoys(tunnel, rock);
 }
