@@ -20,21 +20,24 @@ struct CodeBook {
 
   CodeBook() {
     for (int apart = 4; apart >= 1; --apart) {
-      for (unsigned code = 0; code < all_codes; ++code)
-        if (std::popcount(code) >= least_black && ids[code] == 0 && differs(code, apart)) add(code);
+      std::vector<bool> too_like(all_codes, false);
+      for (const TargetCode code : codes) mark_near(code, apart, too_like);
+      for (unsigned code = 0; code < all_codes; ++code) {
+        if (std::popcount(code) < least_black || too_like[code]) continue;
+        codes.push_back(static_cast<TargetCode>(code));
+        ids[code] = static_cast<int>(codes.size());
+        mark_near(code, apart, too_like);
+      }
       differing[static_cast<std::size_t>(apart)] = static_cast<int>(codes.size());
     }
   }
 
-  bool differs(unsigned code, int apart) const {
-    for (const TargetCode other : codes)
-      if (std::popcount(code ^ static_cast<unsigned>(other)) < apart) return false;
-    return true;
-  }
-
-  void add(unsigned code) {
-    codes.push_back(static_cast<TargetCode>(code));
-    ids[code] = static_cast<int>(codes.size());
+ private:
+  /// What differs from a code in fewer than `apart` segments, itself too.
+  static void mark_near(unsigned code, int apart, std::vector<bool>& marks, int from_segment = 0) {
+    marks[code] = true;
+    for (int k = from_segment; apart > 1 && k < coded_pattern::segments; ++k)
+      mark_near(code ^ (1U << k), apart - 1, marks, k + 1);
   }
 };
 

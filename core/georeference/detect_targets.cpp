@@ -69,7 +69,7 @@ std::vector<TargetStart> best_first(const GreyPicture& level, const std::vector<
   std::vector<TargetStart> starts(blobs.size());
   parallel_for_each_index(
       blobs.size(), [&](std::size_t i) { starts[i] = target_start(level, blobs[i]); }, 16);
-  std::erase_if(starts, [](const TargetStart& start) { return start.likeness < least_start_likeness; });
+  std::erase_if(starts, [](const TargetStart& start) { return start.likeness < 0.0; });
   std::stable_sort(starts.begin(), starts.end(),
                    [](const TargetStart& a, const TargetStart& b) { return a.likeness > b.likeness; });
   return starts;

@@ -20,6 +20,7 @@ using coded_pattern::disc_radius;
 using coded_pattern::segments;
 
 constexpr double places_across = 26.0, places_across_search = 18.0;
+constexpr double sharp_blur_px = 0.7, soft_blur_px = 1.3;  // to begin with
 constexpr double least_core_likeness = 0.93;
 constexpr double least_soft_likeness = 0.90, sure_likeness = 0.965, hopeless_likeness = 0.85;
 constexpr double least_likeness = 0.96, least_likeness_covered = 0.983;
@@ -35,13 +36,16 @@ constexpr double least_near_of_any = 0.97, least_near_of_known = 0.80;
 constexpr double least_amplitude = 5.0;  // grey levels between white and black
 
 /// The black three quarters of a disc of radius 1: their centroid, and one over the square root of their covariance.
+/// `filled`: how far blur has filled the white quarter, 0 to 1.
 struct DiscMoments {
   Eigen::Vector2d centroid;
   Eigen::Matrix2d whitening;
-  DiscMoments() {
-    // Of the white quarter: first moment 1/3 along either axis, second moments pi/16 and 1/8; of the disc pi/4.
-    const double area = 0.75 * pi, first = -1.0 / 3.0 / area;
-    const double same = (pi / 4.0 - pi / 16.0) / area - first * first, mixed = -1.0 / 8.0 / area - first * first;
+  explicit DiscMoments(double filled) {
+    // Of the white quarter: area pi/4, first moment 1/3 along either axis, second moments pi/16 and 1/8; of the disc
+    // pi/4.
+    const double white = 1.0 - filled, area = pi - white * pi / 4.0, first = -white / 3.0 / area;
+    const double same = (pi / 4.0 - white * pi / 16.0) / area - first * first,
+                 mixed = -white / 8.0 / area - first * first;
     centroid = {first, first};
     Eigen::Matrix2d covariance;
     covariance << same, mixed, mixed, same;
@@ -49,16 +53,23 @@ struct DiscMoments {
   }
 };
 
-/// Disc and white ring as they look in every rotation, but for the blur, which is that of `upright` (pixels for one
-/// outer radius).
+/// How far the white quarter of a disc is filled, by how far the blob fills its moments: 0.86 where it is not, 1 as a
+/// disc.
+double filled_quarter(const DarkBlob& blob) {
+  constexpr double open = 0.90, full = 1.0;
+  const double fill = blob.area_px2 / (4.0 * pi * std::sqrt(blob.covariance_px2.determinant()));
+  return std::clamp((fill - open) / (full - open), 0.0, 1.0);
+}
+
+/// Disc and white ring as they look in every rotation, but for the blur.
 class DiscLooks {
  public:
-  explicit DiscLooks(const Eigen::Matrix2d& upright) {
-    static const std::vector<PatternPlace> grid = pattern_grid(0.0, core_radius, 1e9, 10.0);
+  /// On a grid of so many places across, with the blur that is `usual_blur_px` where `upright` are the pixels for one
+  /// outer radius.
+  DiscLooks(double across, const Eigen::Matrix2d& upright) {
     const TargetBlur blur(usual_blur_px, 0.0, upright);
     double sum = 0.0;
-    places_.reserve(grid.size());
-    for (const PatternPlace& at : grid) {
+    for (const PatternPlace& at : pattern_grid(0.0, core_radius, 1e9, across)) {
       places_.push_back({at.at, disc_shade_at(at, blur).value});
       sum += places_.back().darkness;
     }
@@ -95,29 +106,38 @@ class DiscLooks {
   double squares_ = 0.0;
 };
 
-/// Disc and white ring alone, without perspective, from a blur to begin with. Nothing where they do not fit.
-std::optional<Appearance> fit_core(const FitProblem& problem, const TargetPlace& start, double blur_px) {
-  constexpr int more_steps = 7;
+/// Disc and white ring alone.
+FitProblem core_problem(const GreyPicture& picture, const TargetPlace& place) {
+  constexpr double across = 11.0;
+  return {&picture, pattern_grid(0.0, core_radius, long_radius_px(place.shape), across), false, {}, true, {0.0, 0.0},
+          1e-3};
+}
+
+/// Disc and white ring adjusted, without perspective, from a blur to begin with. Nothing where they do not fit.
+TargetStart fit_core(const GreyPicture& picture, const TargetPlace& place, double blur_px) {
+  constexpr int more_steps = 4;
   constexpr double least_at_start = 0.80, least_after_a_step = 0.88;  // right ones: 0.90 and 0.93
+  const FitProblem problem = core_problem(picture, place);
   Appearance look;
-  look.place = start;
+  look.place = place;
   look.blur_px = blur_px;
   set_levels(problem, look);
   FitSums last;
   if (look.black < least_amplitude || quality_of(problem, look).likeness < least_at_start ||
       !refine(problem, look, 1e9, 1, last) || quality_of(problem, look).likeness < least_after_a_step ||
       !refine(problem, look, 1e9, more_steps, last))
-    return std::nullopt;
+    return {};
   const FitQuality quality = quality_of(problem, look);
   if (look.black < least_amplitude || quality.likeness <= least_core_likeness || quality.near < least_core_near)
-    return std::nullopt;
-  return look;
+    return {};
+  return {look.place, look.blur_px, quality.likeness};
 }
 
 /// Before the code is known: place and darkness of the segments by turns. The rims of the ring hold the scale, which
 /// the disc of a small target, blurred as it is, leaves open.
 bool refine_with_any_segments(FitProblem& problem, Appearance& look, int turns) {
   constexpr int steps = 2;
+  constexpr double least_after_a_turn = 0.84;  // right ones: 0.857 and more
   FitSums last;
   for (int turn = 0; turn < turns; ++turn) {
     const auto darkness =
@@ -126,18 +146,17 @@ bool refine_with_any_segments(FitProblem& problem, Appearance& look, int turns) 
     for (std::size_t k = 0; k < problem.blackness.size(); ++k)
       problem.blackness[k] = std::clamp(darkness->value[k], 0.0, 1.0);
     if (look.black < least_amplitude || !refine(problem, look, outlier_limit(look), steps, last)) return false;
+    if (turn + 1 < turns && quality_of(problem, look).likeness < least_after_a_turn) return false;
   }
   return look.black >= least_amplitude;
 }
 
-/// Perspective that the shape permits: none, and that of a circle tilted to either side (weak perspective cannot tell).
-std::vector<Eigen::Vector2d> possible_tilts(const Eigen::Matrix2d& shape, double focal_px) {
+/// Perspective that the shape permits, but for its sign (weak perspective cannot tell).
+Eigen::Vector2d possible_tilt(const Eigen::Matrix2d& shape, double focal_px) {
   const Eigen::JacobiSVD<Eigen::Matrix2d> svd(shape, Eigen::ComputeFullV);
   const double longer = svd.singularValues()(0), shorter = svd.singularValues()(1);
   const double sine = std::sqrt(std::max(0.0, 1.0 - std::pow(shorter / longer, 2)));
-  const Eigen::Vector2d tilt = longer / focal_px * sine * svd.matrixV().col(1);
-  if (tilt.norm() < 0.02) return {Eigen::Vector2d::Zero()};
-  return {Eigen::Vector2d::Zero(), tilt, -tilt};
+  return longer / focal_px * sine * svd.matrixV().col(1);
 }
 
 /// All of a pattern whose code is not known yet.
@@ -147,19 +166,17 @@ struct Whole {
   double likeness = 0.0;
 };
 
-std::optional<Whole> fit_whole(const GreyPicture& picture, const Appearance& core, const Eigen::Vector2d& tilt,
-                               double focal_px) {
+std::optional<Whole> fit_whole(const GreyPicture& picture, const TargetStart& core, const Eigen::Vector2d& tilt,
+                               double tilt_sigma) {
   constexpr int turns = 2;
   const double radius_px = long_radius_px(core.place.shape);
-  Whole whole{{&picture,
-               pattern_grid(0.0, whole_radius, radius_px, places_across_search),
-               true,
-               {},
-               false,
-               tilt,
-               0.3 * radius_px / focal_px + 1e-3},
-              core,
-              0.0};
+  Whole whole{
+      {&picture, pattern_grid(0.0, whole_radius, radius_px, places_across_search), true, {}, false, tilt, tilt_sigma},
+      {},
+      0.0};
+  whole.look.place = core.place;
+  whole.look.blur_px = core.blur_px;
+  set_levels(core_problem(picture, core.place), whole.look);
   whole.look.place.tilt = tilt;
   if (!refine_with_any_segments(whole.problem, whole.look, turns)) return std::nullopt;
   const FitQuality quality = quality_of(whole.problem, whole.look);
@@ -168,11 +185,26 @@ std::optional<Whole> fit_whole(const GreyPicture& picture, const Appearance& cor
   return whole;
 }
 
-/// With the perspective that fits best.
-std::optional<Whole> best_whole(const GreyPicture& picture, const Appearance& core, double focal_px) {
+/// With the perspective that fits best: none, or that of a circle tilted to either side. Where it is weak, a fit that
+/// begins without any finds the side.
+std::optional<Whole> best_whole(const GreyPicture& picture, const TargetStart& core, double focal_px) {
+  constexpr double no_tilt = 0.02, weak_tilt = 0.08;
+  const Eigen::Vector2d tilt = possible_tilt(core.place.shape, focal_px);
+  const double sigma = 0.3 * long_radius_px(core.place.shape) / focal_px + 1e-3;
+  const std::array<Eigen::Vector2d, 3> sides = {Eigen::Vector2d::Zero(), tilt, -tilt};
+  if (tilt.norm() < no_tilt) return fit_whole(picture, core, sides[0], sigma);
+  if (tilt.norm() < weak_tilt) {
+    auto whole = fit_whole(picture, core, sides[0], std::max(sigma, tilt.norm()));
+    if (!whole) return std::nullopt;
+    whole->problem.tilt_sigma = sigma;
+    whole->problem.tilt_prior = *std::min_element(sides.begin(), sides.end(), [&](const auto& a, const auto& b) {
+      return (whole->look.place.tilt - a).squaredNorm() < (whole->look.place.tilt - b).squaredNorm();
+    });
+    return whole;
+  }
   std::optional<Whole> best;
-  for (const Eigen::Vector2d& tilt : possible_tilts(core.place.shape, focal_px)) {
-    auto whole = fit_whole(picture, core, tilt, focal_px);
+  for (const Eigen::Vector2d& side : sides) {
+    auto whole = fit_whole(picture, core, side, sigma);
     if (whole && (!best || whole->likeness > best->likeness)) best = std::move(whole);
   }
   return best;
@@ -215,7 +247,7 @@ FitProblem of_near_places(const FitProblem& problem, const Appearance& look) {
 
 /// The code, and everything adjusted to it. Nothing where the code does not stay the same.
 std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, const std::vector<TargetCode>& codes) {
-  constexpr int more_turns = 2, steps = 10, last_steps = 4;
+  constexpr int more_turns = 1, steps = 10, last_steps = 4;
   problem.grid = pattern_grid(0.0, whole_radius, long_radius_px(look.place.shape), places_across);
   if (!refine_with_any_segments(problem, look, more_turns)) return std::nullopt;
   const auto first =
@@ -252,29 +284,59 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
 }  // namespace
 
 TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob) {
-  static const DiscMoments disc;
-  constexpr int rotations = 12;
-  constexpr double apart_rad = 2.0 * pi / rotations, hopeless = 0.55;
+  const DiscMoments disc(filled_quarter(blob));
+  constexpr int rotations = 12, likeliest = 6;
+  constexpr double apart_rad = 2.0 * pi / rotations, few_across = 5.0, many_across = 10.0, usual_radius_px = 8.0;
+  constexpr double hopeless = 0.80;  // of few places; right ones: 0.82 and more
+  constexpr double least_turn_likeness = 0.75, as_good = 0.06, sure_core_likeness = 0.98;
+  static const DiscLooks coarse(few_across, usual_radius_px * Eigen::Matrix2d::Identity());
   const Eigen::Matrix2d root = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(blob.covariance_px2).operatorSqrt();
   const Eigen::Matrix2d upright = root / disc_radius;
-  const DiscLooks looks(2.0 * upright);  // a disc has twice its standard deviation as radius
-  TargetStart best;
-  double best_turn = 0.0;
-  const auto look = [&](double turn) {
+  const auto place_at = [&](double turn_rad) {
     Eigen::Matrix2d mirror;  // v runs down, y up
-    mirror << std::cos(turn), std::sin(turn), std::sin(turn), -std::cos(turn);
+    mirror << std::cos(turn_rad), std::sin(turn_rad), std::sin(turn_rad), -std::cos(turn_rad);
     TargetPlace place;
     place.shape = upright * mirror * disc.whitening;
     place.center = blob.center - place.shape * disc.centroid * disc_radius;
-    const double likeness = looks.likeness(picture, place.center, place.shape);
-    if (likeness <= best.likeness) return;
-    best = {place, likeness};
-    best_turn = turn;
+    return place;
   };
-  for (int k = 0; k < rotations; ++k) look(apart_rad * k);
-  if (best.likeness < hopeless) return best;
-  const double middle_rad = best_turn;
-  for (const double share : {-0.5, 0.5}) look(middle_rad + share * apart_rad);
+  struct Turn {
+    double likeness, turn_rad;
+  };
+  std::array<Turn, rotations> turns{};
+  for (int k = 0; k < rotations; ++k) {
+    const TargetPlace place = place_at(apart_rad * k);
+    turns[static_cast<std::size_t>(k)] = {coarse.likeness(picture, place.center, place.shape), apart_rad * k};
+  }
+  std::partial_sort(turns.begin(), turns.begin() + likeliest, turns.end(), [](const Turn& a, const Turn& b) {
+    return a.likeness != b.likeness ? a.likeness > b.likeness : a.turn_rad < b.turn_rad;
+  });
+  TargetStart best;
+  if (turns[0].likeness < hopeless) return best;
+  const DiscLooks fine(many_across, 2.0 * upright);  // a disc has twice its standard deviation as radius
+  const auto look = [&](double turn_rad) -> Turn {
+    const TargetPlace place = place_at(turn_rad);
+    return {fine.likeness(picture, place.center, place.shape), turn_rad};
+  };
+  const auto likelier = [](const Turn& a, const Turn& b) { return a.likeness > b.likeness; };
+  std::array<Turn, likeliest> likely{};
+  for (std::size_t k = 0; k < likely.size(); ++k) likely[k] = look(turns[k].turn_rad);
+  std::stable_sort(likely.begin(), likely.end(), likelier);
+  // Black that runs into the white quarter lets other rotations look as good.
+  std::vector<double> tried_rad;
+  for (const Turn& middle : likely) {
+    if (middle.likeness < likely[0].likeness - as_good || best.likeness > sure_core_likeness) break;
+    if (std::any_of(tried_rad.begin(), tried_rad.end(), [&](double other_rad) {
+          return std::cos(middle.turn_rad - other_rad) > std::cos(1.5 * apart_rad);
+        }))
+      continue;
+    tried_rad.push_back(middle.turn_rad);
+    const Turn before = look(middle.turn_rad - 0.5 * apart_rad), behind = look(middle.turn_rad + 0.5 * apart_rad);
+    const Turn turn = std::min({middle, before, behind}, likelier);
+    if (turn.likeness < least_turn_likeness) break;
+    const TargetStart start = fit_core(picture, place_at(turn.turn_rad), sharp_blur_px);
+    if (start.likeness > best.likeness) best = start;
+  }
   return best;
 }
 
@@ -336,14 +398,14 @@ bool reflection_on_disc(const GreyPicture& picture, const TargetReading& reading
 std::optional<TargetReading> read_target(const GreyPicture& picture, const TargetStart& start,
                                          const TargetFitOptions& options) {
   constexpr double small_px = 14.0, larger = 1.2;
-  if (start.likeness < least_start_likeness) return std::nullopt;
+  constexpr double least_radius_px = 6.0;  // of the disc's fit; what was read began with 6.6 and more
+  if (start.likeness < 0.0) return std::nullopt;
   const double focal_px =
       options.focal_length_px > 0.0 ? options.focal_length_px : std::max(picture.width, picture.height);
-  const double radius_px = long_radius_px(start.place.shape);
-  const FitProblem disc{&picture, pattern_grid(0.0, core_radius, radius_px, 14.0), false, {}, true, {0.0, 0.0}, 1e-3};
   std::optional<Whole> unsure;
   // A sure one is read at once, the best of the others last.
-  const auto reading_of = [&](const Appearance& core) -> std::optional<TargetReading> {
+  const auto reading_of = [&](const TargetStart& core) -> std::optional<TargetReading> {
+    if (core.likeness < 0.0 || long_radius_px(core.place.shape) < least_radius_px) return std::nullopt;
     auto whole = best_whole(picture, core, focal_px);
     if (!whole) return std::nullopt;
     if (whole->likeness > sure_likeness)
@@ -351,18 +413,13 @@ std::optional<TargetReading> read_target(const GreyPicture& picture, const Targe
     if (!unsure || whole->likeness > unsure->likeness) unsure = std::move(whole);
     return std::nullopt;
   };
-  std::optional<Appearance> first;
-  for (const double blur_px : {0.7, 1.3}) {
-    const auto core = fit_core(disc, start.place, blur_px);
-    if (core)
-      if (auto reading = reading_of(*core)) return reading;
-    if (!first) first = core;
-    if (!first) return std::nullopt;  // what no sharp disc resembles, no blurred one does
-  }
+  if (auto reading = reading_of(start)) return reading;
+  if (auto reading = reading_of(fit_core(picture, start.place, soft_blur_px))) return reading;
   // Blur and bleeding leave open how large a small disc is: where it nearly fits, a larger one may.
-  if (radius_px <= small_px && unsure && unsure->likeness >= hopeless_likeness) {
-    first->place.shape *= larger;
-    if (auto reading = reading_of(*first)) return reading;
+  if (long_radius_px(start.place.shape) <= small_px && unsure && unsure->likeness >= hopeless_likeness) {
+    TargetStart grown = start;
+    grown.place.shape *= larger;
+    if (auto reading = reading_of(grown)) return reading;
   }
   if (!unsure || unsure->likeness < least_soft_likeness || unsure->likeness > sure_likeness) return std::nullopt;
   return read_whole(unsure->problem, unsure->look, options.codes);

@@ -41,14 +41,15 @@ struct TargetFitOptions {
   double focal_length_px = 0.0;  ///< how strong perspective may be; 0: the longer side of the picture
 };
 
-/// The target whose centre disc a blob may be.
+/// The target whose centre disc a blob may be, as disc and white ring around it show it.
 struct TargetStart {
-  TargetPlace place;
-  double likeness = -1.0;  ///< correlation of picture, disc and white ring; below least_start_likeness it is none
+  TargetPlace place;  ///< without perspective
+  double blur_px = 0.0;
+  double likeness = -1.0;  ///< correlation of picture, disc and white ring; -1 where there is none
 };
-inline constexpr double least_start_likeness = 0.75;
 
-/// The blob's moments give the disc up to a rotation: the one that looks best.
+/// The blob's moments give the disc up to a rotation: the ones that look best are adjusted to the picture, and the one
+/// that fits best then is it.
 TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob);
 
 /// The same reading adjusted to a finer picture of the same scene, in whose pixels it is given and returned; as it was
@@ -59,9 +60,9 @@ TargetReading finer_reading(const GreyPicture& picture, const TargetReading& rea
 /// may hide black segments without a trace, so that another code shows.
 bool reflection_on_disc(const GreyPicture& picture, const TargetReading& reading);
 
-/// The target at a start; nothing where there is none, or it cannot be read without doubt. The start is refined on disc
-/// and white ring; the segments' darkness is solved for by least squares, blur and neighbours considered; then place,
-/// perspective, blur and brightness are adjusted together on the whole pattern.
+/// The target at a start; nothing where there is none, or it cannot be read without doubt. The segments'
+/// darkness is solved for by least squares, blur and neighbours considered; then place, perspective, blur and
+/// brightness are adjusted together on the whole pattern.
 std::optional<TargetReading> read_target(const GreyPicture& picture, const TargetStart& start,
                                          const TargetFitOptions& options);
 

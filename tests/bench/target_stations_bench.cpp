@@ -1,5 +1,5 @@
-// The paper's tables on simulated stations: targets read in pictures, overlaps and poses of the scans taken there, poses
-// by targets beside them; POSIT beside OpenCV's solvePnP, and the time it takes.
+// The paper's tables on simulated stations: targets read in pictures, overlaps and poses of the scans taken there,
+// poses by targets beside them; POSIT beside OpenCV's solvePnP, and the time it takes.
 
 #include <tbb/global_control.h>
 
@@ -52,8 +52,7 @@ render::CameraScene hung_targets(const RockTunnel& tunnel, const RockMesh& rock,
     target.code = code_of_id(id);
     target.radius_m = 0.11;
     const auto n = static_cast<std::uint64_t>(id);
-    target.site_from_target =
-        place_facing_back(tunnel, s, places[id % 7] + 0.3 * random.uniform(n, -1.0, 1.0), free_m);
+    target.site_from_target = place_facing_back(tunnel, s, places[id % 7] + 0.3 * random.uniform(n, -1.0, 1.0), free_m);
     scene.targets.push_back(target);
     const Eigen::Vector3d noise(random.normal(1000 + 3 * n), random.normal(1001 + 3 * n), random.normal(1002 + 3 * n));
     landmarks[id] = target.site_from_target.translation() + 0.001 * noise;  // surveyed to a millimetre
@@ -111,8 +110,9 @@ Station station_at(int i, const RockTunnel& tunnel, const render::CameraScene& s
 void print_recognition(const Station& station, const Landmarks& landmarks) {
   Progress progress;
   const tbb::global_control one_core(tbb::global_control::max_allowed_parallelism, 1);
-  const double all_s = seconds_of(
-      5, [&] { static_cast<void>(detect_targets(station.picture, options_of(picture_lens(), target_code_count), progress)); });
+  const double all_s = seconds_of(5, [&] {
+    static_cast<void>(detect_targets(station.picture, options_of(picture_lens(), target_code_count), progress));
+  });
   std::printf(
       "\n### The paper's table 1 again: recognition of coded targets\n\nThe picture of station 1. Run time: of the whole picture on one core, over the number of targets; theirs: 9 to 12 ms.\n\n"
       "| run time ms | x pixel | y pixel | binary code | x cm | y cm | z cm |\n|---|---|---|---|---|---|---|\n");
