@@ -1,6 +1,7 @@
 #include "app/find_targets.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 
 #include "app/placed_tiles.h"
@@ -24,6 +25,18 @@ std::string coded_point(const std::vector<ControlPoint>& control, int id) {
   for (const ControlPoint& point : control)
     if (target_id(point.id) == id) return point.id;
   return {};
+}
+
+/// A coded target that is not where its control point should be.
+void report_contradiction(const std::string& subject, const UnnamedTarget& target,
+                          const std::vector<ControlPoint>& control, const Pose& local_from_scan, Findings& findings) {
+  const auto point =
+      std::find_if(control.begin(), control.end(), [&](const ControlPoint& one) { return one.id == target.id; });
+  char words[200];
+  std::snprintf(words, sizeof words, "coded target %.40s lies %.3f m from control point %.40s and is not used",
+                target.id.c_str(), (local_from_scan * target.in_scan - point->position).norm(), target.id.c_str());
+  findings.push_back({Severity::decision, subject, words,
+                      "survey the point again: it may have moved, or its id may be wrong in the control file"});
 }
 
 /// Those of one scan by control: coded ones that nobody surveyed take no part.
@@ -59,6 +72,13 @@ void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarge
                      seen[i].size_m, seen[i].pixels});
   }
   const std::string subject = "scan " + name;
+  std::size_t contradicting = 0;
+  for (std::size_t k = 0; match.local_from_scan && k < of.size(); ++k) {
+    if (unnamed[k].id.empty() || match.control[k]) continue;
+    ++contradicting;
+    report_contradiction(subject, unnamed[k], control, *match.local_from_scan, findings);
+  }
+  nameless -= contradicting;
   if (seen.empty()) {
     findings.push_back({Severity::warning, subject, "none of the targets the job asks for is found in it",
                         "scan more densely, or nearer to them"});

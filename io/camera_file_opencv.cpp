@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -26,11 +27,48 @@ cv::Mat numbers(const cv::FileStorage& storage, const char* key, const std::stri
   cv::Mat matrix;
   storage[key] >> matrix;
   if (matrix.empty() || matrix.channels() != 1) fail(std::string("the key ") + key + " is missing, or no matrix", file);
+  if (matrix.depth() != CV_64F && matrix.depth() != CV_32F)
+    fail(std::string("the key ") + key + " holds whole numbers (dt): digits are lost", file);
   matrix.convertTo(matrix, CV_64F);
   return matrix;
 }
 
+/// Files of fisheye lenses have the same keys, with coefficients that mean something else.
+void refuse_other_models(const cv::FileStorage& storage, const std::string& file) {
+  const auto refuse = [&](const char* key) {
+    fail(std::string("the key ") + key +
+             " says that the lens is a fisheye or otherwise special, which Adit does not know",
+         file);
+  };
+  for (const char* key : {"distortion_model", "camera_model", "model_type", "model"}) {
+    const cv::FileNode node = storage[key];
+    if (!node.isString()) continue;
+    std::string model = static_cast<std::string>(node);
+    std::transform(model.begin(), model.end(), model.begin(), [](unsigned char c) { return std::tolower(c); });
+    for (const char* other : {"fisheye", "equidistant", "kannala", "omni", "mei", "scaramuzza", "equirect", "fov"})
+      if (model.find(other) != std::string::npos) refuse(key);
+  }
+  for (const char* key : {"fisheye", "fisheye_model"}) {
+    const cv::FileNode node = storage[key];
+    if (node.isInt() && static_cast<int>(node) == 0) continue;
+    if (!node.isNone() && !node.empty() && !(node.isString() && static_cast<std::string>(node) == "false")) refuse(key);
+  }
+}
+
+/// OpenCV reads nested lists by recursion: deep ones end the program.
+bool is_nested_deeply(const std::string& text) {
+  constexpr int most = 20;
+  int depth = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > most) return true;
+  }
+  return false;
+}
+
 CameraLens lens_of(const cv::FileStorage& storage, const std::string& file) {
+  refuse_other_models(storage, file);
   CameraLens lens;
   lens.width = whole_number(storage, "image_width", file);
   lens.height = whole_number(storage, "image_height", file);
@@ -73,6 +111,7 @@ CameraLens read_camera(const std::filesystem::path& path) {
     fail("this is no camera file: it has " + std::to_string(file.size()) + " bytes", file.name());
   const std::string text = file.beginning(static_cast<std::size_t>(file.size()));
   if (text.rfind("%YAML", 0) != 0) fail("this is no camera file: it does not begin with %YAML", file.name());
+  if (is_nested_deeply(text)) fail("this is no camera file: its lists are nested more than twenty deep", file.name());
   try {
     const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (!storage.isOpened()) fail("the file is damaged", file.name());

@@ -1,12 +1,46 @@
 #include <algorithm>
+#include <bit>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <string_view>
 
 #include "core/foundation/error.h"
 #include "io/bytes.h"
 #include "io/grey_picture_file.h"
 
 namespace adit::io {
+namespace {
+
+/// JPEGs end with a marker, which thumbnails inside them have too, and some cameras write after it. What is cut off is
+/// decoded all the same, its rest in grey.
+bool is_cut_off_jpeg(const std::string& bytes) {
+  if (bytes.rfind("\xFF\xD8", 0) != 0) return false;
+  const std::size_t scan = bytes.rfind("\xFF\xDA"), end = bytes.rfind("\xFF\xD9");
+  return end == std::string::npos || (scan != std::string::npos && end < scan);
+}
+
+/// What a TIFF says of how its picture is turned, 1 as it is stored; also where it says nothing.
+int tiff_orientation(const std::string& bytes) {
+  constexpr std::uint16_t orientation_tag = 274;
+  constexpr std::size_t entry_bytes = 12;
+  const bool little_end = bytes.rfind(std::string_view("II*\0", 4), 0) == 0;
+  if (!little_end && bytes.rfind(std::string_view("MM\0*", 4), 0) != 0) return 1;
+  const std::endian order = little_end ? std::endian::little : std::endian::big;
+  const auto* at = reinterpret_cast<const std::byte*>(bytes.data());
+  const auto short_at = [&](std::size_t i) { return stored_as<std::uint16_t>(order, at + i); };
+  if (bytes.size() < 8) return 1;
+  const std::size_t directory = stored_as<std::uint32_t>(order, at + 4);
+  if (directory > bytes.size() || bytes.size() - directory < 2) return 1;
+  const std::size_t entries = short_at(directory);
+  for (std::size_t k = 0; k < entries; ++k) {
+    const std::size_t entry = directory + 2 + entry_bytes * k;
+    if (bytes.size() < entry + entry_bytes) return 1;
+    if (short_at(entry) == orientation_tag) return short_at(entry + 8);
+  }
+  return 1;
+}
+
+}  // namespace
 
 GreyPicture read_grey_picture(const std::filesystem::path& path) {
   constexpr std::uint64_t largest_file = std::uint64_t{1} << 29;
@@ -16,6 +50,11 @@ GreyPicture read_grey_picture(const std::filesystem::path& path) {
   if (file.size() > largest_file)
     throw Error("the file is larger than 512 MiB", file.name(), "name a PNG, JPEG, TIFF, BMP or PGM picture");
   const std::string bytes = file.beginning(static_cast<std::size_t>(file.size()));
+  if (is_cut_off_jpeg(bytes))
+    throw Error("the picture is cut off: the end of the JPEG is missing", file.name(), "copy it from the camera again");
+  if (tiff_orientation(bytes) > 1)
+    throw Error("the TIFF says that its picture is to be turned, which the calibration of the camera does not know of",
+                file.name(), "save it without an orientation, as the sensor saw it");
   cv::Mat grey;
   try {
     const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));

@@ -1,6 +1,8 @@
 #include "io/job_targets_json.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "core/foundation/angle.h"
 #include "io/existing_file.h"
@@ -43,6 +45,7 @@ void check_cameras(const JsonPlace& cameras, const Job& job) {
 }
 
 void check_pictures(const JsonPlace& root, const Job& job) {
+  std::set<std::string> named;
   for (const JobScan& scan : job.scans)
     for (const JobPicture& picture : scan.pictures) {
       if (job.cameras.empty())
@@ -55,6 +58,9 @@ void check_pictures(const JsonPlace& root, const Job& job) {
       if (!picture.camera.empty() && !known)
         root.refuse("picture " + picture.file + " is of camera \"" + picture.camera + "\", which the job does not have",
                     "use the names in \"cameras\"");
+      if (!named.insert((fs::path(picture.file).lexically_normal()).string()).second)
+        root.refuse("picture " + picture.file + " is named twice: it would count as two observations",
+                    "name each picture once, with the scan it was taken during");
     }
   const bool any =
       std::any_of(job.scans.begin(), job.scans.end(), [](const JobScan& s) { return !s.pictures.empty(); });

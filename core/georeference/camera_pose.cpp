@@ -321,12 +321,14 @@ void judge(const Scene& scene, const Adjusted& adjusted, const Indices& used, Ca
         {Severity::warning, "pose",
          "four targets give a pose that hardly anything checks: a wrong one among them may not show",
          "put up more, around the camera"});
-  if (result.sigma_factor > 2.0) {
+  constexpr double worse = 2.0, wrong = 5.0;
+  if (result.sigma_factor > worse) {
     char words[160];
     std::snprintf(words, sizeof words,
                   "the targets fit %.1f times worse than their sigmas say; the pose's sigmas are as much greater",
                   result.sigma_factor);
-    result.findings.push_back({Severity::warning, "pose", words, "calibrate the camera, and check the database"});
+    result.findings.push_back({result.sigma_factor > wrong ? Severity::decision : Severity::warning, "pose", words,
+                               "calibrate the camera, and check the database"});
   }
   if (!result.flat) return;
   // The other pose of a plane: is it worse for certain?
@@ -336,6 +338,21 @@ void judge(const Scene& scene, const Adjusted& adjusted, const Indices& used, Ca
     result.findings.push_back({Severity::decision, "pose",
                                "the targets lie in one plane, and a second pose fits to them as well",
                                "put up a target before or behind the others"});
+}
+
+/// Four of many wrong targets fit some pose by chance: most must bear it out, and of five
+/// all but one, of eight all but three.
+void check_contradictions(const std::vector<LandmarkSight>& sights, const Indices& used) {
+  const std::size_t left_out = sights.size() - used.size();
+  if (left_out < used.size() && left_out <= 2 * (used.size() - least_targets) + 1) return;
+  std::string names;
+  for (const std::size_t i : used) names += (names.empty() ? "" : ", ") + sights[i].id;
+  throw Error(
+      "the targets contradict one another: the pose that most of them fit holds for " + names + ", and the other " +
+          std::to_string(left_out) + " speak against it",
+      {},
+      "check that the camera file is of this camera, its zoom and focus, and the database: east and north may be "
+      "exchanged, ids wrong, targets moved");
 }
 
 }  // namespace
@@ -360,6 +377,7 @@ CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight
   Indices used = consensus.agreeing;
   const std::optional<Adjusted> adjusted = adjusted_without_blunders(scene, consensus.pose, used);
   if (!adjusted) throw Error("the targets determine no pose", {}, "put up more targets, around the camera");
+  check_contradictions(sights, used);
   CameraPose result;
   result.site_from_camera = site_from_camera(scene, adjusted->camera_from_site);
   result.sigma_factor = std::sqrt(adjusted->cost / std::max(1.0, 2.0 * static_cast<double>(used.size()) - 6.0));

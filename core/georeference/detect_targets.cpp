@@ -41,6 +41,24 @@ bool lies_in(const std::vector<DetectedTarget>& targets, const Eigen::Vector2d& 
   });
 }
 
+/// Adds those of a second look that the first did not show alike.
+void add_others(std::vector<DarkBlob>& blobs, const std::vector<DarkBlob>& second) {
+  constexpr double near_px = 0.7, alike = 1.3;
+  std::vector<DarkBlob> by_row = blobs;
+  const auto higher = [](const DarkBlob& a, double v) { return a.center.y() < v; };
+  std::stable_sort(by_row.begin(), by_row.end(),
+                   [](const DarkBlob& a, const DarkBlob& b) { return a.center.y() < b.center.y(); });
+  for (const DarkBlob& other : second) {
+    const auto first = std::lower_bound(by_row.begin(), by_row.end(), other.center.y() - near_px, higher),
+               last = std::lower_bound(first, by_row.end(), other.center.y() + near_px, higher);
+    if (std::none_of(first, last, [&](const DarkBlob& blob) {
+          return (blob.center - other.center).norm() < near_px && blob.area_px2 < alike * other.area_px2 &&
+                 other.area_px2 < alike * blob.area_px2;
+        }))
+      blobs.push_back(other);
+  }
+}
+
 /// What may be discs of a picture whose pixels are `scale` wide, but for what lies in targets that are found already.
 std::vector<DarkBlob> candidates(const GreyPicture& level, double scale, const std::vector<DetectedTarget>& found) {
   constexpr double least_contrast = 3.0, sigmas = 2.0;
@@ -50,14 +68,7 @@ std::vector<DarkBlob> candidates(const GreyPicture& level, double scale, const s
                                                    .most_area_px2 = most_area_px2});
   if (scale == 1.0) {
     // Blur fills the white ring of the smallest ones: it shows against a mean of what is nearer.
-    const std::size_t first = blobs.size();
-    for (const DarkBlob& small :
-         dark_blobs(level, {.window_px = 11, .least_contrast = contrast, .most_area_px2 = 60.0}))
-      if (std::none_of(blobs.begin(), blobs.begin() + static_cast<std::ptrdiff_t>(first), [&](const DarkBlob& blob) {
-            return (blob.center - small.center).squaredNorm() < 0.5 && blob.area_px2 < 1.3 * small.area_px2 &&
-                   small.area_px2 < 1.3 * blob.area_px2;
-          }))
-        blobs.push_back(small);
+    add_others(blobs, dark_blobs(level, {.window_px = 11, .least_contrast = contrast, .most_area_px2 = 60.0}));
   }
   std::erase_if(
       blobs, [&](const DarkBlob& blob) { return !may_be_disc(blob) || lies_in(found, enlarged(blob.center, scale)); });
@@ -133,7 +144,7 @@ std::vector<DetectedTarget> detect_targets(const GreyPicture& picture, const Det
       if (!reading) continue;
       enlarge(*reading, scale);
       if (scale > 1.0) *reading = finer_reading(picture, *reading, focal_px);
-      if (fit.codes.empty() && reflection_on_disc(picture, *reading)) continue;
+      if (reading->alone && reflection_on_disc(picture, *reading)) continue;
       found.push_back(target_of(*reading));
       if (found.back().diameter_px < options.least_diameter_px) found.pop_back();
     }

@@ -30,8 +30,10 @@ struct Matching {
     return std::abs(seen_m - surveyed_m) <= std::hypot(near_m(i), near_m(j));
   }
   bool agrees_with_guess(const Pose& pose) const {
-    return !guess || (distance_between_m(pose, *guess) <= most_sigmas * options.guess_sigma_m &&
-                      rotation_between_rad(pose, *guess) <= most_sigmas * options.guess_sigma_rad);
+    // A scanner stands upright: upside down, it is control points in a mirror (east and north exchanged) that fit.
+    if (!guess) return pose.linear()(2, 2) > 0.0;
+    return distance_between_m(pose, *guess) <= most_sigmas * options.guess_sigma_m &&
+           rotation_between_rad(pose, *guess) <= most_sigmas * options.guess_sigma_rad;
   }
 };
 

@@ -12,7 +12,7 @@
 namespace adit {
 namespace {
 
-constexpr double half_width = 1.15;  // tangent: 49 degrees to either side
+constexpr double half_width = 0.6;  // tangent: 31 degrees to either side
 constexpr float least_range_m = 0.3F;
 
 /// Means of each pixel so far.
@@ -165,15 +165,25 @@ double view_focal_px(const TileSource& scan) {
 }
 
 std::vector<Eigen::Matrix3d> views_about() {
+  // Neighbours overlap by 14 degrees and more. Wider ones would be fewer, but points lie too far apart in their
+  // corners.
+  constexpr int level = 8, inclined = 6;
   std::vector<Eigen::Matrix3d> views;
   const auto add = [&](const Eigen::Vector3d& ahead, const Eigen::Vector3d& down) {
     Eigen::Matrix3d view;
     view << down.cross(ahead), down, ahead;
     views.push_back(view);
   };
-  for (const Eigen::Vector3d& ahead :
-       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(-1, 0, 0), Eigen::Vector3d(0, -1, 0)})
-    add(ahead, {0, 0, -1});
+  const auto add_row = [&](double elevation_rad, int count) {
+    for (int k = 0; k < count; ++k) {
+      const double azimuth_rad = 2.0 * pi * k / count, a = std::cos(azimuth_rad), b = std::sin(azimuth_rad);
+      const double out = std::cos(elevation_rad), up = std::sin(elevation_rad);
+      add({a * out, b * out, up}, {a * up, b * up, -out});
+    }
+  };
+  add_row(0.0, level);
+  add_row(0.25 * pi, inclined);
+  add_row(-0.25 * pi, inclined);
   add({0, 0, 1}, {1, 0, 0});
   add({0, 0, -1}, {1, 0, 0});
   return views;

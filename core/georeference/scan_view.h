@@ -33,8 +33,8 @@ struct ScanView {
 /// is not densest; 2400 at most.
 double view_focal_px(const TileSource& scan);
 
-/// Rotations (scan_from_view) of six views about the scanner: four along the horizon, one up, one down. Each is wider
-/// than 90 degrees, so that what stands at the border of one lies whole in another.
+/// Rotations (scan_from_view) of 22 views about the scanner: eight along the horizon, six each up and down by 45
+/// degrees, one up, one down. They overlap, so that what stands at the border of one lies whole in another.
 std::vector<Eigen::Matrix3d> views_about();
 
 /// One of these views of a scan whose frame begins at the scanner. Points nearer than 0.3 m are left out. The same

@@ -103,35 +103,50 @@ std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, cons
   return darkness;
 }
 
-std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const std::vector<TargetCode>& codes) {
-  constexpr double most_off = 1.9;      // segments, in sum
+namespace {
+
+constexpr double most_off = 1.9;  // segments, in sum
+
+double off_of(const SegmentDarkness& darkness, int k, bool black) {
+  return std::min(1.0, std::abs(darkness.value[static_cast<std::size_t>(k)] - (black ? 1.0 : 0.0)));
+}
+
+/// What the segments show where each of them is clear by itself.
+std::optional<DecodedTarget> clear_code(const SegmentDarkness& darkness) {
   constexpr double least_clear = 0.22;  // of a segment, from one half
   constexpr double clear_sigmas = 3.0;
-  constexpr double least_margin = 1.2;  // segments, to the next code of a list
-  const bool any = codes.empty();
-  const auto off = [&](int k, bool black) {
-    return std::min(1.0, std::abs(darkness.value[static_cast<std::size_t>(k)] - (black ? 1.0 : 0.0)));
-  };
-  if (any) {
-    TargetCode code = 0;
-    double sum = 0.0, clearest = 1.0;
-    for (int k = 0; k < segments; ++k) {
-      const double value = darkness.value[static_cast<std::size_t>(k)];
-      const double clear = std::abs(value - 0.5);
-      if (clear < std::max(least_clear, clear_sigmas * darkness.sigma[static_cast<std::size_t>(k)]))
-        return std::nullopt;
-      code = static_cast<TargetCode>(2 * code + (value > 0.5 ? 1 : 0));
-      sum += off(k, value > 0.5);
-      clearest = std::min(clearest, 2.0 * clear);
-    }
-    if (sum > most_off || id_of_code(code) == 0) return std::nullopt;
-    return DecodedTarget{code, clearest};
+  TargetCode code = 0;
+  double sum = 0.0, clearest = 1.0;
+  for (int k = 0; k < segments; ++k) {
+    const double value = darkness.value[static_cast<std::size_t>(k)];
+    const double clear = std::abs(value - 0.5);
+    if (clear < std::max(least_clear, clear_sigmas * darkness.sigma[static_cast<std::size_t>(k)])) return std::nullopt;
+    code = static_cast<TargetCode>(2 * code + (value > 0.5 ? 1 : 0));
+    sum += off_of(darkness, k, value > 0.5);
+    clearest = std::min(clearest, 2.0 * clear);
   }
+  if (sum > most_off || id_of_code(code) == 0) return std::nullopt;
+  return DecodedTarget{code, clearest, true};
+}
+
+/// True where no segment is off white and black by more than ink and light make them: nothing covers any.
+bool is_whole(const SegmentDarkness& darkness) {
+  constexpr double most_off_each = 0.12;
+  return std::all_of(darkness.value.begin(), darkness.value.end(),
+                     [](double value) { return std::min(std::abs(value), std::abs(value - 1.0)) < most_off_each; });
+}
+
+}  // namespace
+
+std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const std::vector<TargetCode>& codes) {
+  constexpr double least_margin = 1.2;  // segments, to the next code of a list
+  const auto clear = clear_code(darkness);
+  if (codes.empty()) return clear;
   double best = std::numeric_limits<double>::infinity(), next = best;
   TargetCode code = 0;
   for (const TargetCode candidate : codes) {
     double sum = 0.0;
-    for (int k = 0; k < segments; ++k) sum += off(k, is_black(candidate, k));
+    for (int k = 0; k < segments; ++k) sum += off_of(darkness, k, is_black(candidate, k));
     if (sum < best) {
       next = best;
       best = sum;
@@ -140,8 +155,11 @@ std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const
       next = std::min(next, sum);
     }
   }
-  if (best > most_off || next - best < least_margin) return std::nullopt;
-  return DecodedTarget{code, next - best};
+  // Whole, it is what it shows: one of the list, or none however near.
+  if (clear && clear->code != code && is_whole(darkness)) return std::nullopt;
+  if (best > most_off) return std::nullopt;
+  if (next - best < least_margin) return clear && clear->code == code ? clear : std::nullopt;
+  return DecodedTarget{code, next - best, false};
 }
 
 std::optional<DecodedTarget> decode_segments(const GreyPicture& picture, const TargetPlace& place,

@@ -13,6 +13,7 @@ namespace adit {
 struct DecodedTarget {
   TargetCode code = 0;
   double margin = 0.0;  ///< how much farther the next code lies off, in segments
+  bool alone = false;   ///< no other code is far off: only what each segment shows by itself speaks for it
 };
 
 /// How a target is blurred, and the grey levels from its white to its black.
@@ -32,8 +33,9 @@ struct SegmentDarkness {
 std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, const TargetPlace& place,
                                                 const std::vector<PatternPlace>& grid, const TargetTone& tone);
 
-/// The code that lies nearest to the segments, when it is near and no other one is. `codes`: those that may be; empty:
-/// all of target_codes(), and each segment must then be clear by itself.
+/// The code that lies nearest to the segments, when it is near and no other one is, or each segment is clear by itself.
+/// `codes`: those that may be; empty: all of target_codes(). What shows another code with all segments whole is none of
+/// them.
 std::optional<DecodedTarget> nearest_code(const SegmentDarkness& darkness, const std::vector<TargetCode>& codes);
 
 /// Both.

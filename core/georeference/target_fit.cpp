@@ -258,7 +258,7 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
   FitSums last;
   if (!refine(problem, look, outlier_limit(look), steps, last) || !last.whole) return std::nullopt;
   const FitQuality quality = quality_of(problem, look);
-  const double least_near = codes.empty() ? least_near_of_any : least_near_of_known;
+  const double least_near = first->alone ? least_near_of_any : least_near_of_known;
   // What is covered in part must fit the better elsewhere.
   const bool covered = quality.near < least_near_of_any;
   const double wanted = covered ? least_likeness_covered : least_likeness;
@@ -270,15 +270,10 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
     return std::nullopt;
   const auto decoded =
       decode_segments(*problem.picture, look.place, problem.grid, {look.blur_px, look.bleed, look.black}, codes);
-  if (!decoded || decoded->code != first->code) return std::nullopt;
-  if (!shows_the_quarter(problem, look, !codes.empty())) return std::nullopt;
-  return TargetReading{decoded->code,
-                       look.place,
-                       look.blur_px,
-                       look.bleed,
-                       quality.likeness,
-                       decoded->margin,
-                       center_covariance(problem, look, last)};
+  if (!decoded || decoded->code != first->code || decoded->alone != first->alone) return std::nullopt;
+  if (!shows_the_quarter(problem, look, !first->alone)) return std::nullopt;
+  return TargetReading{decoded->code,    look.place,      look.blur_px,   look.bleed,
+                       quality.likeness, decoded->margin, decoded->alone, center_covariance(problem, look, last)};
 }
 
 }  // namespace

@@ -27,10 +27,11 @@ struct TargetPlace {
 struct TargetReading {
   TargetCode code = 0;
   TargetPlace place;
-  double blur_px = 0.0;                                      ///< standard deviation of the point spread
-  double bleed = 0.0;                                        ///< how many of those white creeps over black
-  double likeness = 0.0;                                     ///< correlation of picture and fitted pattern
-  double margin = 0.0;                                       ///< how much worse the next code fits, in segments
+  double blur_px = 0.0;   ///< standard deviation of the point spread
+  double bleed = 0.0;     ///< how many of those white creeps over black
+  double likeness = 0.0;  ///< correlation of picture and fitted pattern
+  double margin = 0.0;    ///< how much worse the next code fits, in segments
+  bool alone = false;     ///< no list of codes that differ speaks for this one, only what each segment shows
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  ///< of the centre
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -93,11 +94,31 @@ void report_pictures(RegistrationResult& result, const Adjustment& adjustment, c
   report_cameras(result, solved, context);
 }
 
+namespace {
+
+/// Whether any of the clouds, the scan's targets or a second picture say where a scan stands, beside its picture.
+bool is_checked(const RegistrationResult& result, const Node& node, const std::string& scan) {
+  return !node.control.empty() || node.sights.size() > 1 ||
+         std::any_of(result.pairs.begin(), result.pairs.end(), [&](const PairResult& pair) {
+           return pair.used && pair.undetermined.empty() && (pair.source == scan || pair.target == scan);
+         });
+}
+
+}  // namespace
+
 void compare_guesses_with_pictures(RegistrationResult& result, const std::vector<ScanToPlace>& scans,
                                    const std::vector<Node>& nodes, const RegistrationOptions& options) {
   for (const Node& node : nodes) {
     const auto& guess = scans[node.scan].local_from_scan_guess;
-    if (node.sights.empty() || !guess) continue;
+    if (node.sights.empty()) continue;
+    if (!guess) {
+      if (!is_checked(result, node, scans[node.scan].name))
+        result.findings.push_back({Severity::warning, "scan " + scans[node.scan].name,
+                                   "only its picture says where it stands: nothing checks that the picture is of this "
+                                   "scan, and how its camera sits",
+                                   "give it a pose in job.json, control, or scans around that overlap with it"});
+      continue;
+    }
     const Pose& placed = result.scans[node.scan].local_from_scan;
     const double moved_m = distance_between_m(*guess, placed);
     const double turned_deg = deg_from_rad(rotation_between_rad(*guess, placed));

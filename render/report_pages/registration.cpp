@@ -234,10 +234,50 @@ void add_pair_sections(PageFlow& flow, const ReportContent& content) {
                    colours::grey, 2.3);
 }
 
+/// Where pictures of surveyed targets put the cameras, against where the adjustment puts them.
+void add_pictures(PageFlow& flow, const Results& results) {
+  const RegistrationResult& registration = results.registration;
+  if (registration.pictures.empty()) return;
+  flow.subheading("Cameras placed by coded targets, picture minus adjusted");
+  Table table{{{"picture", 32, false},
+               {"scan", 18, false},
+               {"targets", 14, true},
+               {"left out", 22, false},
+               {"rms px", 14, true},
+               {"sigma mm", 18, true},
+               {"off mm", 14, true},
+               {"mdeg", 13, true},
+               {"normalised", 24, true},
+               {"used", 16, false}},
+              {},
+              2.2};
+  for (const PictureResult& picture : registration.pictures)
+    table.rows.push_back(
+        {picture.picture, picture.scan, std::to_string(picture.targets.size()), joined(picture.rejected),
+         picture.located ? fixed(picture.rms_px, 2) : "", picture.located ? fixed(1000.0 * picture.sigma_m, 1) : "",
+         picture.located ? fixed(1000.0 * picture.residual_m.norm(), 1) : "",
+         picture.located ? mdeg(picture.turned_rad.norm()) : "",
+         TableCell(picture.located ? fixed(picture.normalised, 1) : "",
+                   picture.normalised > wrong_normalised ? colours::red : colours::black),
+         TableCell(picture.used ? "yes" : "no", picture.used ? colours::black : colours::red, !picture.used)});
+  flow.table(table);
+  for (const CameraResult& camera : registration.cameras)
+    flow.paragraph("The lever arm of camera " + camera.camera + " was adjusted by " +
+                       fixed(1000.0 * camera.moved_m, 1) + " mm and " + mdeg(camera.moved_rad) + " mdeg, " +
+                       fixed(camera.normalised, 1) + " times what its sigmas say.",
+                   colours::grey, 2.3);
+}
+
 void add_control(PageFlow& flow, const Results& results) {
   if (results.registration.control.empty()) {
-    flow.paragraph("No control points: the position of the whole survey is that of its datum scan or guesses.",
-                   colours::grey);
+    const auto& pictures = results.registration.pictures;
+    const bool by_pictures =
+        std::any_of(pictures.begin(), pictures.end(), [](const PictureResult& picture) { return picture.used; });
+    flow.paragraph(
+        by_pictures
+            ? "No control points: the position of the whole survey is that of the coded targets in its pictures."
+            : "No control points: the position of the whole survey is that of its datum scan or guesses.",
+        colours::grey);
     return;
   }
   flow.subheading("Targets against control, observed minus control");
@@ -302,6 +342,7 @@ void add_registration_pages(PageFlow& flow, const ReportContent& content) {
   add_what_pairs_know(flow, results, content.job->options.registration);
   add_loops(flow, results);
   add_control(flow, results);
+  add_pictures(flow, results);
   add_pair_sections(flow, content);
 }
 

@@ -170,6 +170,34 @@ TEST(CameraPose, AMovedTargetAndWrongIdsAreNamedAndNotUsed) {
   }
 }
 
+TEST(CameraPose, WrongOnesThatFitByChanceGiveNoPose) {
+  std::size_t refused = 0, doubted = 0;
+  constexpr std::uint64_t scenes = 20;
+  for (std::uint64_t seed = 1; seed <= scenes; ++seed) {
+    Scene exchanged(12, 0.1, seed), zoomed(12, 0.1, seed), four(4, 0.1, seed);
+    for (LandmarkSight& sight : exchanged.sights) std::swap(sight.site.x(), sight.site.y());
+    EXPECT_THROW(locate_camera(exchanged.lens, exchanged.sights, {}), Error) << seed;
+    zoomed.lens.fx *= 1.3;
+    zoomed.lens.fy *= 1.3;
+    try {
+      const CameraPose pose = locate_camera(zoomed.lens, zoomed.sights, {});
+      EXPECT_GT(pose.used(), 7U) << seed;  // those that are left out are fewer
+    } catch (const Error&) {
+      ++refused;
+    }
+    four.sights[1].site.x() += 0.2;
+    try {
+      const CameraPose pose = locate_camera(four.lens, four.sights, {});
+      doubted += std::any_of(pose.findings.begin(), pose.findings.end(),
+                             [](const Finding& finding) { return finding.severity == Severity::decision; });
+    } catch (const Error&) {
+      ++doubted;
+    }
+  }
+  EXPECT_EQ(refused, scenes);
+  EXPECT_GE(doubted, scenes - 2);  // four have two observations too many: a move may hide
+}
+
 /// Pictures of a board of 7 x 5 targets, 40 mm apart, held before the camera in many ways.
 std::vector<BoardPicture> board_pictures(const CameraLens& lens, int count, double most_tilt_rad, double noise_px) {
   const Random random(4, 9);

@@ -88,6 +88,17 @@ TEST(MatchTargets, WhatFitsTwiceIsNotMatchedUnlessAGuessTells) {
   EXPECT_EQ(matched(coded, control).matched, 4U);
 }
 
+TEST(MatchTargets, ControlInAMirrorDoesNotTurnTheScannerUpsideDown) {
+  // Three targets and their mirror picture are the same triangle.
+  auto control = control_along(9, 3);
+  const std::vector<std::size_t> which{2, 4, 6};
+  const auto seen = seen_of(control, which, 3);
+  ASSERT_TRUE(matched(seen, control).local_from_scan);
+  for (ControlPoint& point : control) std::swap(point.position.x(), point.position.y());
+  const TargetMatch match = matched(seen, control);
+  EXPECT_TRUE(!match.local_from_scan || match.local_from_scan->linear()(2, 2) > 0.0);
+}
+
 TEST(MatchTargets, TooFewOrOfAnotherPlaceGiveNothing) {
   const auto control = control_along(40, 4);
   EXPECT_EQ(matched(seen_of(control, {8, 11}, 4), control).matched, 0U);

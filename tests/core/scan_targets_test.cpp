@@ -7,6 +7,7 @@
 
 #include "core/foundation/angle.h"
 #include "core/foundation/random.h"
+#include "core/georeference/scan_view.h"
 #include "core/simulation/rock_mesh.h"
 #include "core/simulation/scanner.h"
 #include "tests/core/sample_tunnel.h"
@@ -64,6 +65,23 @@ Seen scanned(double step_mrad, std::uint64_t seed) {
   return seen;
 }
 
+TEST(ScanView, EveryDirectionLiesWellInsideOne) {
+  // A board of 20 cm, 1.5 m away, lies whole in it; and not in a corner, where points lie apart.
+  constexpr double reach = 0.09, half_width = 0.6, least_ahead = 0.8;
+  const Random random(5, 5);
+  const auto views = views_about();
+  for (std::uint64_t k = 0; k < 3000; k += 3) {
+    const Eigen::Vector3d direction =
+        Eigen::Vector3d(random.normal(k), random.normal(k + 1), random.normal(k + 2)).normalized();
+    EXPECT_TRUE(std::any_of(views.begin(), views.end(), [&](const Eigen::Matrix3d& scan_from_view) {
+      const Eigen::Vector3d seen = scan_from_view.transpose() * direction;
+      return seen.z() > least_ahead && std::abs(seen.x() / seen.z()) < half_width - reach &&
+             std::abs(seen.y() / seen.z()) < half_width - reach;
+    })) << direction.transpose();
+  }
+  for (const Eigen::Matrix3d& view : views) EXPECT_NEAR(view.determinant(), 1.0, 1e-12);
+}
+
 TEST(ScanTargetsSlow, SpheresQuartersAndCodedOnesWithinAMillimetre) {
   // Points 6 mm apart at 10 m.
   const Seen seen = scanned(0.6, 1);
@@ -80,6 +98,7 @@ TEST(ScanTargetsSlow, SpheresQuartersAndCodedOnesWithinAMillimetre) {
     if (at.norm() <= 10.3) {
       ++near_count;
       within += off_m < 0.001 ? 1 : 0;
+      EXPECT_LT(off_m, 0.001) << static_cast<int>(hung.kind) << " at " << at.transpose();
     }
     if (hung.kind == TargetKind::coded) {
       EXPECT_EQ(found->code_id, id_of_code(hung.code));
