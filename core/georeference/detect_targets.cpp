@@ -106,6 +106,14 @@ DetectedTarget target_of(const TargetReading& reading) {
   return target;
 }
 
+/// Blur and noise take less from the likeness of larger targets: right ones show 0.975 and more, letters that make a
+/// ring up to 0.966.
+bool resembles_too_little(const TargetReading& reading) {
+  constexpr double large_px = 30.0, least_likeness = 0.972;
+  const double diameter_px = 2.0 * Eigen::JacobiSVD<Eigen::Matrix2d>(reading.place.shape).singularValues()(0);
+  return diameter_px > large_px && reading.likeness < least_likeness;
+}
+
 /// Of readings of one place, which sizes of the picture give twice, the better one.
 std::vector<DetectedTarget> without_doubles(std::vector<DetectedTarget> targets) {
   std::sort(targets.begin(), targets.end(),
@@ -145,6 +153,7 @@ std::vector<DetectedTarget> detect_targets(const GreyPicture& picture, const Det
       enlarge(*reading, scale);
       if (scale > 1.0) *reading = finer_reading(picture, *reading, focal_px);
       if (reading->alone && reflection_on_disc(picture, *reading)) continue;
+      if (resembles_too_little(*reading)) continue;
       found.push_back(target_of(*reading));
       if (found.back().diameter_px < options.least_diameter_px) found.pop_back();
     }

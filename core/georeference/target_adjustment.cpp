@@ -136,6 +136,12 @@ double long_radius_px(const Eigen::Matrix2d& shape) {
   return Eigen::JacobiSVD<Eigen::Matrix2d>(shape).singularValues()(0);
 }
 
+FitProblem disc_problem(const GreyPicture& picture, const TargetPlace& place) {
+  constexpr double across = 11.0, no_tilt = 1e-3;
+  const double radius_px = long_radius_px(place.shape);
+  return {&picture, pattern_grid(0.0, core_radius, radius_px, across), false, {}, true, {0.0, 0.0}, no_tilt};
+}
+
 void set_levels(const FitProblem& problem, Appearance& look) {
   const TargetBlur blur(look.blur_px, look.bleed, look.place.shape);
   double n = 0.0, d = 0.0, dd = 0.0, g = 0.0, dg = 0.0;

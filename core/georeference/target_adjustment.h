@@ -6,8 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "core/georeference/target_fit.h"
+#include "core/geometry/grey_picture.h"
 #include "core/georeference/target_model.h"
+#include "core/georeference/target_place.h"
 
 namespace adit {
 
@@ -70,6 +71,9 @@ struct FitProblem {
   Eigen::Vector2d tilt_prior;
   double tilt_sigma;
 };
+
+/// Of disc and white ring alone, without perspective, on few places.
+FitProblem disc_problem(const GreyPicture& picture, const TargetPlace& place);
 
 /// How well a fitted pattern explains the picture.
 struct FitQuality {

@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/georeference/target_fit.h"
+#include "core/geometry/grey_picture.h"
 #include "core/georeference/target_model.h"
+#include "core/georeference/target_place.h"
 
 namespace adit {
 

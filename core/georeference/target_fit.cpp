@@ -1,7 +1,6 @@
 #include "core/georeference/target_fit.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -16,12 +15,9 @@
 namespace adit {
 namespace {
 
-using coded_pattern::disc_radius;
 using coded_pattern::segments;
 
 constexpr double places_across = 26.0, places_across_search = 18.0;
-constexpr double sharp_blur_px = 0.7, soft_blur_px = 1.3;  // to begin with
-constexpr double least_core_likeness = 0.93;
 constexpr double least_soft_likeness = 0.90, sure_likeness = 0.965, hopeless_likeness = 0.85;
 constexpr double least_likeness = 0.96, least_likeness_covered = 0.983;
 // What noise does not explain (unexplained_share), measured: right targets leave up to 0.028, but for single ones, the
@@ -30,108 +26,9 @@ constexpr double most_unexplained = 0.027;
 // Black creeps over white in ink that runs, white over black by light and gamma: right targets show -0.3 to 0.7.
 constexpr double least_bleed = -0.5, most_bleed = 0.75;
 // Shares of places that must lie near the fitted pattern. What is no target, or another code, leaves more of them.
-constexpr double least_core_near = 0.80, least_soft_near = 0.70, least_disc_near = 0.93;
+constexpr double least_soft_near = 0.70, least_disc_near = 0.93;
 constexpr double least_disc_near_covered = 0.98;
 constexpr double least_near_of_any = 0.97, least_near_of_known = 0.80;
-constexpr double least_amplitude = 5.0;  // grey levels between white and black
-
-/// The black three quarters of a disc of radius 1: their centroid, and one over the square root of their covariance.
-/// `filled`: how far blur has filled the white quarter, 0 to 1.
-struct DiscMoments {
-  Eigen::Vector2d centroid;
-  Eigen::Matrix2d whitening;
-  explicit DiscMoments(double filled) {
-    // Of the white quarter: area pi/4, first moment 1/3 along either axis, second moments pi/16 and 1/8; of the disc
-    // pi/4.
-    const double white = 1.0 - filled, area = pi - white * pi / 4.0, first = -white / 3.0 / area;
-    const double same = (pi / 4.0 - white * pi / 16.0) / area - first * first,
-                 mixed = -white / 8.0 / area - first * first;
-    centroid = {first, first};
-    Eigen::Matrix2d covariance;
-    covariance << same, mixed, mixed, same;
-    whitening = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).operatorInverseSqrt();
-  }
-};
-
-/// How far the white quarter of a disc is filled, by how far the blob fills its moments: 0.86 where it is not, 1 as a
-/// disc.
-double filled_quarter(const DarkBlob& blob) {
-  constexpr double open = 0.90, full = 1.0;
-  const double fill = blob.area_px2 / (4.0 * pi * std::sqrt(blob.covariance_px2.determinant()));
-  return std::clamp((fill - open) / (full - open), 0.0, 1.0);
-}
-
-/// Disc and white ring as they look in every rotation, but for the blur.
-class DiscLooks {
- public:
-  /// On a grid of so many places across, with the blur that is `usual_blur_px` where `upright` are the pixels for one
-  /// outer radius.
-  DiscLooks(double across, const Eigen::Matrix2d& upright) {
-    const TargetBlur blur(usual_blur_px, 0.0, upright);
-    double sum = 0.0;
-    for (const PatternPlace& at : pattern_grid(0.0, core_radius, 1e9, across)) {
-      places_.push_back({at.at, disc_shade_at(at, blur).value});
-      sum += places_.back().darkness;
-    }
-    for (Place& place : places_) {
-      place.darkness -= sum / static_cast<double>(places_.size());
-      squares_ += place.darkness * place.darkness;
-    }
-  }
-
-  /// Correlation with the picture, without perspective; -1 where it leaves the picture.
-  double likeness(const GreyPicture& picture, const Eigen::Vector2d& center, const Eigen::Matrix2d& shape) const {
-    const double reach_u = core_radius * shape.row(0).norm(), reach_v = core_radius * shape.row(1).norm();
-    if (!picture.holds(center.x() - reach_u, center.y() - reach_v) ||
-        !picture.holds(center.x() + reach_u, center.y() + reach_v))
-      return -1.0;
-    double sum = 0.0, squares = 0.0, mixed = 0.0;
-    for (const Place& place : places_) {
-      const double grey = picture.between(center.x() + shape(0, 0) * place.at.x() + shape(0, 1) * place.at.y(),
-                                          center.y() + shape(1, 0) * place.at.x() + shape(1, 1) * place.at.y());
-      sum += grey;
-      squares += grey * grey;
-      mixed += grey * place.darkness;
-    }
-    const double variance = squares - sum * sum / static_cast<double>(places_.size());
-    return variance > 0.0 && squares_ > 0.0 ? -mixed / std::sqrt(variance * squares_) : 0.0;
-  }
-
- private:
-  struct Place {
-    Eigen::Vector2d at;
-    double darkness;  ///< less the mean
-  };
-  std::vector<Place> places_;
-  double squares_ = 0.0;
-};
-
-/// Disc and white ring alone.
-FitProblem core_problem(const GreyPicture& picture, const TargetPlace& place) {
-  constexpr double across = 11.0;
-  return {&picture, pattern_grid(0.0, core_radius, long_radius_px(place.shape), across), false, {}, true, {0.0, 0.0},
-          1e-3};
-}
-
-/// Disc and white ring adjusted, without perspective, from a blur to begin with. Nothing where they do not fit.
-TargetStart fit_core(const GreyPicture& picture, const TargetPlace& place, double blur_px) {
-  constexpr int more_steps = 4;
-  constexpr double least_at_start = 0.80, least_after_a_step = 0.88;  // right ones: 0.90 and 0.93
-  const FitProblem problem = core_problem(picture, place);
-  Appearance look;
-  look.place = place;
-  look.blur_px = blur_px;
-  set_levels(problem, look);
-  FitSums last;
-  if (look.black < least_amplitude || quality_of(problem, look).likeness < least_at_start ||
-      !refine(problem, look, 1e9, 1, last) || quality_of(problem, look).likeness < least_after_a_step ||
-      !refine(problem, look, 1e9, more_steps, last))
-    return {};
-  const FitQuality quality = quality_of(problem, look);
-  if (look.black < least_amplitude || quality.likeness <= least_core_likeness || quality.near < least_core_near)
-    return {};
-  return {look.place, look.blur_px, quality.likeness};
-}
 
 /// Before the code is known: place and darkness of the segments by turns. The rims of the ring hold the scale, which
 /// the disc of a small target, blurred as it is, leaves open.
@@ -176,7 +73,7 @@ std::optional<Whole> fit_whole(const GreyPicture& picture, const TargetStart& co
       0.0};
   whole.look.place = core.place;
   whole.look.blur_px = core.blur_px;
-  set_levels(core_problem(picture, core.place), whole.look);
+  set_levels(disc_problem(picture, core.place), whole.look);
   whole.look.place.tilt = tilt;
   if (!refine_with_any_segments(whole.problem, whole.look, turns)) return std::nullopt;
   const FitQuality quality = quality_of(whole.problem, whole.look);
@@ -278,63 +175,6 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
 
 }  // namespace
 
-TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob) {
-  const DiscMoments disc(filled_quarter(blob));
-  constexpr int rotations = 12, likeliest = 6;
-  constexpr double apart_rad = 2.0 * pi / rotations, few_across = 5.0, many_across = 10.0, usual_radius_px = 8.0;
-  constexpr double hopeless = 0.80;  // of few places; right ones: 0.82 and more
-  constexpr double least_turn_likeness = 0.75, as_good = 0.06, sure_core_likeness = 0.98;
-  static const DiscLooks coarse(few_across, usual_radius_px * Eigen::Matrix2d::Identity());
-  const Eigen::Matrix2d root = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(blob.covariance_px2).operatorSqrt();
-  const Eigen::Matrix2d upright = root / disc_radius;
-  const auto place_at = [&](double turn_rad) {
-    Eigen::Matrix2d mirror;  // v runs down, y up
-    mirror << std::cos(turn_rad), std::sin(turn_rad), std::sin(turn_rad), -std::cos(turn_rad);
-    TargetPlace place;
-    place.shape = upright * mirror * disc.whitening;
-    place.center = blob.center - place.shape * disc.centroid * disc_radius;
-    return place;
-  };
-  struct Turn {
-    double likeness, turn_rad;
-  };
-  std::array<Turn, rotations> turns{};
-  for (int k = 0; k < rotations; ++k) {
-    const TargetPlace place = place_at(apart_rad * k);
-    turns[static_cast<std::size_t>(k)] = {coarse.likeness(picture, place.center, place.shape), apart_rad * k};
-  }
-  std::partial_sort(turns.begin(), turns.begin() + likeliest, turns.end(), [](const Turn& a, const Turn& b) {
-    return a.likeness != b.likeness ? a.likeness > b.likeness : a.turn_rad < b.turn_rad;
-  });
-  TargetStart best;
-  if (turns[0].likeness < hopeless) return best;
-  const DiscLooks fine(many_across, 2.0 * upright);  // a disc has twice its standard deviation as radius
-  const auto look = [&](double turn_rad) -> Turn {
-    const TargetPlace place = place_at(turn_rad);
-    return {fine.likeness(picture, place.center, place.shape), turn_rad};
-  };
-  const auto likelier = [](const Turn& a, const Turn& b) { return a.likeness > b.likeness; };
-  std::array<Turn, likeliest> likely{};
-  for (std::size_t k = 0; k < likely.size(); ++k) likely[k] = look(turns[k].turn_rad);
-  std::stable_sort(likely.begin(), likely.end(), likelier);
-  // Black that runs into the white quarter lets other rotations look as good.
-  std::vector<double> tried_rad;
-  for (const Turn& middle : likely) {
-    if (middle.likeness < likely[0].likeness - as_good || best.likeness > sure_core_likeness) break;
-    if (std::any_of(tried_rad.begin(), tried_rad.end(), [&](double other_rad) {
-          return std::cos(middle.turn_rad - other_rad) > std::cos(1.5 * apart_rad);
-        }))
-      continue;
-    tried_rad.push_back(middle.turn_rad);
-    const Turn before = look(middle.turn_rad - 0.5 * apart_rad), behind = look(middle.turn_rad + 0.5 * apart_rad);
-    const Turn turn = std::min({middle, before, behind}, likelier);
-    if (turn.likeness < least_turn_likeness) break;
-    const TargetStart start = fit_core(picture, place_at(turn.turn_rad), sharp_blur_px);
-    if (start.likeness > best.likeness) best = start;
-  }
-  return best;
-}
-
 TargetReading finer_reading(const GreyPicture& picture, const TargetReading& reading, double focal_length_px) {
   constexpr double across = 72.0;
   constexpr int steps = 5, every = 9;
@@ -409,7 +249,7 @@ std::optional<TargetReading> read_target(const GreyPicture& picture, const Targe
     return std::nullopt;
   };
   if (auto reading = reading_of(start)) return reading;
-  if (auto reading = reading_of(fit_core(picture, start.place, soft_blur_px))) return reading;
+  if (auto reading = reading_of(softer_start(picture, start))) return reading;
   // Blur and bleeding leave open how large a small disc is: where it nearly fits, a larger one may.
   if (long_radius_px(start.place.shape) <= small_px && unsure && unsure->likeness >= hopeless_likeness) {
     TargetStart grown = start;

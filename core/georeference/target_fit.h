@@ -8,20 +8,10 @@
 
 #include "core/geometry/grey_picture.h"
 #include "core/georeference/coded_pattern.h"
-#include "core/georeference/dark_blobs.h"
+#include "core/georeference/target_place.h"
+#include "core/georeference/target_start.h"
 
 namespace adit {
-
-/// The plane of a target in a picture: a place (x, y) of the pattern, in outer radii, is seen at
-/// center + shape (x, y) / (1 + tilt . (x, y)). The centre is that of the circle in space, not of the ellipse it is
-/// seen as: perspective sets them apart.
-struct TargetPlace {
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();     ///< pixels
-  Eigen::Matrix2d shape = Eigen::Matrix2d::Identity();  ///< pixels for one outer radius
-  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();       ///< perspective: how the scale falls off over one outer radius
-
-  Eigen::Vector2d pixel(const Eigen::Vector2d& at) const { return center + shape * at / (1.0 + tilt.dot(at)); }
-};
 
 /// A target as it was read.
 struct TargetReading {
@@ -41,17 +31,6 @@ struct TargetFitOptions {
       codes;  ///< that were printed; empty: any of target_codes(), and then not a single doubtful segment
   double focal_length_px = 0.0;  ///< how strong perspective may be; 0: the longer side of the picture
 };
-
-/// The target whose centre disc a blob may be, as disc and white ring around it show it.
-struct TargetStart {
-  TargetPlace place;  ///< without perspective
-  double blur_px = 0.0;
-  double likeness = -1.0;  ///< correlation of picture, disc and white ring; -1 where there is none
-};
-
-/// The blob's moments give the disc up to a rotation: the ones that look best are adjusted to the picture, and the one
-/// that fits best then is it.
-TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob);
 
 /// The same reading adjusted to a finer picture of the same scene, in whose pixels it is given and returned; as it was
 /// where that fails. Places along the edges count.
