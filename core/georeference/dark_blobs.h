@@ -2,9 +2,12 @@
 // Dark patches of a picture by size: where the centre discs of coded targets may be.
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
+#include <cmath>
 #include <vector>
 
+#include "core/foundation/angle.h"
 #include "core/geometry/grey_picture.h"
 
 namespace adit {
@@ -21,6 +24,10 @@ struct DarkBlob {
   double area_px2 = 0.0;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();
+
+  /// Area over that of the ellipse with these moments: 1 for a disc, less for lines and crosses. Wants a covariance
+  /// that is positive definite.
+  double fill() const { return area_px2 / (4.0 * pi * std::sqrt(covariance_px2.determinant())); }
 };
 
 struct DarkBlobOptions {

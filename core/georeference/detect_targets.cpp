@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "core/foundation/parallel.h"
 
@@ -18,14 +17,13 @@ constexpr int least_side_px = 32;
 constexpr double least_area_px2 = 28.0,
                  most_area_px2 = 180.0;  // of a disc; a picture of half the size begins where this ends
 
-/// A disc without a quarter fills its moments like this: area over 4 pi sqrt(det covariance) is 0.86. Lines, letters
+/// A disc without a quarter fills its moments to 0.86 (DarkBlob::fill). Lines, letters
 /// and crosses fill theirs less.
 bool may_be_disc(const DarkBlob& blob) {
   constexpr double least_fill = 0.62, most_fill = 1.12,
                    least_ratio = 0.06;  // of variances: 75 degrees, and the quarter
-  const double det = blob.covariance_px2.determinant();
-  if (det <= 0.0) return false;
-  const double fill = blob.area_px2 / (4.0 * pi * std::sqrt(det));
+  if (blob.covariance_px2.determinant() <= 0.0) return false;
+  const double fill = blob.fill();
   const Eigen::Vector2d variances = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(blob.covariance_px2).eigenvalues();
   return fill > least_fill && fill < most_fill && variances(0) > least_ratio * variances(1);
 }

@@ -16,6 +16,9 @@ inline constexpr double core_radius = 0.60;   ///< disc and most of the white ri
 inline constexpr double whole_radius = 1.14;  ///< and some of the paper around
 inline constexpr double usual_blur_px = 0.8;  ///< of cameras in focus, where a target tells little of it
 
+inline constexpr double least_amplitude = 5.0;   ///< grey levels between white and black: below, there is no target
+inline constexpr double least_core_near = 0.80;  ///< share of disc and white ring that must lie near the fitted pattern
+
 /// Correlation of two lists of numbers.
 class Correlation {
  public:

@@ -1,7 +1,6 @@
 #include "core/georeference/target_start.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -35,12 +34,11 @@ struct DiscMoments {
   }
 };
 
-/// How far the white quarter of a disc is filled, by how far the blob fills its moments: 0.86 where it is not, 1 as a
-/// disc.
+/// How far the white quarter of a disc is filled, by how far the patch fills its moments: 0.86 where it is not, and as
+/// good as that up to 0.90, for pixels are coarse; 1 as a disc.
 double filled_quarter(const DarkBlob& blob) {
   constexpr double open = 0.90, full = 1.0;
-  const double fill = blob.area_px2 / (4.0 * pi * std::sqrt(blob.covariance_px2.determinant()));
-  return std::clamp((fill - open) / (full - open), 0.0, 1.0);
+  return std::clamp((blob.fill() - open) / (full - open), 0.0, 1.0);
 }
 
 /// Disc and white ring as they look in every rotation, but for the blur.
@@ -152,8 +150,8 @@ Turn looked_at(const GreyPicture& picture, const TurnedDisc& disc, const DiscLoo
   return {looks.likeness(picture, place.center, place.shape), turn_rad};
 }
 
-/// Those that look best on few places, by how they look on many; none where none looks like a disc.
-std::vector<Turn> likely_turns(const GreyPicture& picture, const TurnedDisc& disc, const DiscLooks& fine) {
+/// Those that look best on few places; none where none looks like a disc.
+std::vector<Turn> likely_turns(const GreyPicture& picture, const TurnedDisc& disc) {
   constexpr double few_across = 5.0, usual_radius_px = 8.0;
   constexpr double hopeless = 0.80;  // of few places; right ones: 0.82 and more
   static const DiscLooks coarse(few_across, usual_radius_px * Eigen::Matrix2d::Identity());
@@ -163,8 +161,6 @@ std::vector<Turn> likely_turns(const GreyPicture& picture, const TurnedDisc& dis
   std::sort(turns.begin(), turns.end(), likelier);
   if (turns.front().likeness < hopeless) return {};
   turns.resize(likeliest);
-  for (Turn& turn : turns) turn = looked_at(picture, disc, fine, turn.turn_rad);
-  std::sort(turns.begin(), turns.end(), likelier);
   return turns;
 }
 
@@ -173,8 +169,11 @@ std::vector<Turn> likely_turns(const GreyPicture& picture, const TurnedDisc& dis
 TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob) {
   constexpr double many_across = 10.0, least_turn_likeness = 0.75, as_good = 0.06, sure_likeness = 0.98;
   const TurnedDisc disc(blob);
+  std::vector<Turn> likely = likely_turns(picture, disc);
+  if (likely.empty()) return {};
   const DiscLooks fine(many_across, disc.upright());
-  const std::vector<Turn> likely = likely_turns(picture, disc, fine);
+  for (Turn& turn : likely) turn = looked_at(picture, disc, fine, turn.turn_rad);
+  std::sort(likely.begin(), likely.end(), likelier);
   // Black that runs into the white quarter lets other rotations look as good.
   std::vector<double> tried_rad;
   TargetStart best;

@@ -21,10 +21,4 @@ TargetStart target_start(const GreyPicture& picture, const DarkBlob& blob);
 /// Another one near it, adjusted from more blur.
 TargetStart softer_start(const GreyPicture& picture, const TargetStart& start);
 
-/// Grey levels between white and black: what shows fewer is no target.
-inline constexpr double least_amplitude = 5.0;
-
-/// Share of the places of disc and white ring that must lie near the fitted pattern.
-inline constexpr double least_core_near = 0.80;
-
 }  // namespace adit
