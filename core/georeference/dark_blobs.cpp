@@ -126,7 +126,7 @@ class DarkPixels {
   void mark_row(int v, float contrast, std::vector<std::uint8_t>& marks) {
     if (v + half_px_ < picture_.height) add_row(v + half_px_);
     if (v - half_px_ - 1 >= 0) remove_row(v - half_px_ - 1);
-    for (std::size_t u = 0; u < columns_.size(); ++u) sums_[u + 1] = sums_[u] + columns_[u];
+    sum_columns();
     const int rows = std::min(v + half_px_, picture_.height - 1) - std::max(v - half_px_, 0) + 1;
     const int width = picture_.width, inside = std::min(half_px_, width), last = std::max(inside, width - half_px_);
     const std::uint8_t* row = picture_.pixels.data() + picture_.index(0, v);
@@ -146,6 +146,17 @@ class DarkPixels {
  private:
   int sum(int left, int right) const {
     return sums_[static_cast<std::size_t>(right)] - sums_[static_cast<std::size_t>(left)];
+  }
+  void sum_columns() {
+    constexpr std::size_t at_once = 8;
+    const std::size_t count = columns_.size();
+    const std::uint16_t* const columns = columns_.data();
+    int* const sums = sums_.data() + 1;
+    int sum = 0;
+    std::size_t u = 0;
+    for (; u + at_once <= count; u += at_once)
+      for (std::size_t k = 0; k < at_once; ++k) sums[u + k] = sum += columns[u + k];
+    for (; u < count; ++u) sums[u] = sum += columns[u];
   }
   void add_row(int row) {
     const std::uint8_t* pixels = picture_.pixels.data() + picture_.index(0, row);

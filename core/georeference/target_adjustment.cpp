@@ -68,23 +68,30 @@ double value_of(const Appearance& look, const Eigen::Vector2d& at, double darkne
   return look.white + look.white_slope.dot(at) - look.black * darkness;
 }
 
+/// The first unknowns of all.
+template <int count>
+using Row = Eigen::Matrix<double, count, 1>;
+
 /// d (grey of the picture - value of the pattern) / d unknowns.
-Unknowns row_of(const Appearance& look, const Eigen::Vector2d& at, const Grey& grey, const Shade& shade) {
+template <int count>
+Row<count> row_of(const Appearance& look, const Eigen::Vector2d& at, const Grey& grey, const Shade& shade) {
   const double scale = 1.0 / (1.0 + look.place.tilt.dot(at));
   const double u = grey.along_u, v = grey.along_v;
-  const Eigen::Vector2d shaped = look.place.shape * at;
-  const double along_tilt = -scale * scale * (u * shaped.x() + v * shaped.y());
-  Unknowns row;
-  row << u, v, u * at.x() * scale, u * at.y() * scale, v * at.x() * scale, v * at.y() * scale, -1.0, shade.value,
-      along_tilt * at.x(), along_tilt * at.y(), look.black * shade.by_log_blur / look.blur_px, -at.x(), -at.y(),
-      look.black * shade.by_bleed;
+  const double x = at.x() * scale, y = at.y() * scale;
+  Row<count> row;
+  row.template head<few_unknowns>() << u, v, u * x, u * y, v * x, v * y, -1.0, shade.value;
+  if constexpr (count > few_unknowns) {
+    const Eigen::Vector2d shaped = look.place.shape * at;
+    const double along_tilt = -scale * (u * shaped.x() + v * shaped.y());
+    row.template tail<count - few_unknowns>() << along_tilt * x, along_tilt * y,
+        look.black * shade.by_log_blur / look.blur_px, -at.x(), -at.y(), look.black * shade.by_bleed;
+  }
   return row;
 }
 
-/// Lower half of the first `count` unknowns, and some above it: columns from even rows on, which the processor takes
-/// two numbers at a time.
+/// Lower half, and some above it: columns from even rows on, which the processor takes two numbers at a time.
 template <int count, int column = 0>
-void add_row(FitSums& sums, const Unknowns& row, const Unknowns& weighed) {
+void add_row(FitSums& sums, const Row<count>& row, const Row<count>& weighed) {
   if constexpr (column < count) {
     constexpr int first = column - column % 2;
     sums.normal.template block<count - first, 1>(first, column) +=
@@ -94,6 +101,7 @@ void add_row(FitSums& sums, const Unknowns& row, const Unknowns& weighed) {
 }
 
 /// Huber's weights: what lies off by more than `limit` grey levels (a cover, dust, glare) counts less.
+template <int count>
 FitSums sums_of(const FitProblem& problem, const Appearance& look, double limit) {
   const TargetBlur blur(look.blur_px, look.bleed, look.place.shape);
   FitSums sums;
@@ -109,15 +117,15 @@ FitSums sums_of(const FitProblem& problem, const Appearance& look, double limit)
     const double weight = std::abs(off) > limit ? limit / std::abs(off) : 1.0;
     sums.cost += weight * off * off;
     sums.weight += weight;
-    const Unknowns row = row_of(look, place.at, grey, shade);
-    const Unknowns weighed = weight * row;
-    sums.right -= off * weighed;
-    if (problem.few)
-      add_row<few_unknowns>(sums, row, weighed);
-    else
-      add_row<unknowns>(sums, row, weighed);
+    const Row<count> row = row_of<count>(look, place.at, grey, shade), weighed = weight * row;
+    sums.right.head<count>() -= off * weighed;
+    add_row<count>(sums, row, weighed);
   }
   return sums;
+}
+
+FitSums sums_of(const FitProblem& problem, const Appearance& look, double limit) {
+  return problem.few ? sums_of<few_unknowns>(problem, look, limit) : sums_of<unknowns>(problem, look, limit);
 }
 
 /// The sums with what is known of perspective, as a whole matrix.
@@ -162,21 +170,38 @@ void set_levels(const FitProblem& problem, Appearance& look) {
   look.white = (g + look.black * d) / n;
 }
 
+namespace {
+
+/// The next step, damped.
+template <int count>
+Unknowns step_of(const NormalMatrix& normal, const Unknowns& right, double damping) {
+  Eigen::Matrix<double, count, count> damped = normal.template topLeftCorner<count, count>();
+  damped.diagonal() = (1.0 + damping) * damped.diagonal().array() + 1e-9;
+  Unknowns by = Unknowns::Zero();
+  by.template head<count>() = damped.ldlt().solve(right.template head<count>());
+  return by;
+}
+
+}  // namespace
+
 bool refine(const FitProblem& problem, Appearance& look, double limit, int most_steps, FitSums& last) {
-  double damping = 1e-3;
   last = sums_of(problem, look, limit);
+  return refine_on(problem, look, limit, most_steps, last);
+}
+
+bool refine_on(const FitProblem& problem, Appearance& look, double limit, int most_steps, FitSums& last) {
+  double damping = 1e-3;
   for (int i = 0; i < most_steps; ++i) {
     if (last.weight < 20.0) return false;
-    NormalMatrix normal = normal_of(problem, last);
+    const NormalMatrix normal = normal_of(problem, last);
     Unknowns right = last.right;
-    const double pull = std::max(1.0, last.cost / last.weight) / (problem.tilt_sigma * problem.tilt_sigma);
-    right.segment<2>(8) += pull * (problem.tilt_prior - look.place.tilt);
     const double variance = std::max(1.0, last.cost / last.weight);
+    right.segment<2>(8) +=
+        variance / (problem.tilt_sigma * problem.tilt_sigma) * (problem.tilt_prior - look.place.tilt);
     right(10) += variance / (blur_sigma_px * blur_sigma_px) * (usual_blur_px - look.blur_px);
     right(13) -= variance / (bleed_sigma * bleed_sigma) * look.bleed;
-    if (problem.few) right.tail<unknowns - few_unknowns>().setZero();
-    for (int k = 0; k < unknowns; ++k) normal(k, k) += damping * normal(k, k) + 1e-9;
-    const Unknowns by = normal.ldlt().solve(right);
+    const Unknowns by =
+        problem.few ? step_of<few_unknowns>(normal, right, damping) : step_of<unknowns>(normal, right, damping);
     if (!by.allFinite()) return false;
     Appearance moved = look;
     move(moved, by);

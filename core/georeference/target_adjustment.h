@@ -104,6 +104,9 @@ void set_levels(const FitProblem& problem, Appearance& look);
 /// the picture, or the pattern turns inside out or vanishes.
 bool refine(const FitProblem& problem, Appearance& look, double limit, int most_steps, FitSums& last);
 
+/// The same, going on from the sums `last` of the same problem and limit.
+bool refine_on(const FitProblem& problem, Appearance& look, double limit, int most_steps, FitSums& last);
+
 /// Covariance of the centre [pixels squared].
 Eigen::Matrix2d center_covariance(const FitProblem& problem, const Appearance& look, const FitSums& sums);
 

@@ -73,7 +73,7 @@ std::optional<SegmentDarkness> segment_darkness(const GreyPicture& picture, cons
                                                 const std::vector<PatternPlace>& grid, const TargetTone& tone) {
   const auto places = places_of(picture, place, grid, tone);
   if (!places || places->size() < 2 * unknowns) return std::nullopt;
-  constexpr int rounds = 3;
+  constexpr int rounds = 2;
   double limit = std::numeric_limits<double>::infinity();
   Solution solution = Solution::Zero();
   NormalMatrix covariance;

@@ -82,23 +82,13 @@ std::optional<Whole> fit_whole(const GreyPicture& picture, const TargetStart& co
   return whole;
 }
 
-/// With the perspective that fits best: none, or that of a circle tilted to either side. Where it is weak, a fit that
-/// begins without any finds the side.
+/// With the perspective that fits best: none, or that of a circle tilted to either side.
 std::optional<Whole> best_whole(const GreyPicture& picture, const TargetStart& core, double focal_px) {
-  constexpr double no_tilt = 0.02, weak_tilt = 0.08;
+  constexpr double no_tilt = 0.02;
   const Eigen::Vector2d tilt = possible_tilt(core.place.shape, focal_px);
   const double sigma = 0.3 * long_radius_px(core.place.shape) / focal_px + 1e-3;
   const std::array<Eigen::Vector2d, 3> sides = {Eigen::Vector2d::Zero(), tilt, -tilt};
   if (tilt.norm() < no_tilt) return fit_whole(picture, core, sides[0], sigma);
-  if (tilt.norm() < weak_tilt) {
-    auto whole = fit_whole(picture, core, sides[0], std::max(sigma, tilt.norm()));
-    if (!whole) return std::nullopt;
-    whole->problem.tilt_sigma = sigma;
-    whole->problem.tilt_prior = *std::min_element(sides.begin(), sides.end(), [&](const auto& a, const auto& b) {
-      return (whole->look.place.tilt - a).squaredNorm() < (whole->look.place.tilt - b).squaredNorm();
-    });
-    return whole;
-  }
   std::optional<Whole> best;
   for (const Eigen::Vector2d& side : sides) {
     auto whole = fit_whole(picture, core, side, sigma);

@@ -122,6 +122,7 @@ constexpr double nothing = 1e-6;
 /// Share of the light of a place that the ring of segments sends.
 Shade ring_share(const PatternPlace& place, const TargetBlur& blur, double across) {
   const Shade inner = edge_at((place.radius - coded_pattern::ring_radius) / across, -1.0, blur.bleed);
+  if (inner.value <= nothing) return {};
   const Shade outer = edge_at((1.0 - place.radius) / across, -1.0, blur.bleed);
   const Shade share = inner + outer + Shade{-1.0, 0.0, 0.0};
   return share.value > nothing ? share : Shade{};
@@ -172,9 +173,12 @@ Shade shade_of(const Blackness& blackness, const PatternPlace& place, const Targ
   if (share.value <= 0.0) return disc;
   const InRing ring(place, blur);
   // From boundary to boundary, each moved into the darker side.
-  Shade dark{blackness[wrapped(ring.here - ring.reach - 1)], 0.0, 0.0};
+  std::size_t segment = wrapped(ring.here - ring.reach - 1);
+  Shade dark{blackness[segment], 0.0, 0.0};
   for (int k = -ring.reach; k <= ring.reach + 1; ++k) {
-    const double change = blackness[wrapped(ring.here + k)] - blackness[wrapped(ring.here + k - 1)];
+    const double before = blackness[segment];
+    segment = segment + 1 == segments ? 0 : segment + 1;
+    const double change = blackness[segment] - before;
     if (change == 0.0) continue;
     const double sigmas = (place.turn - ring.here - k) * ring.per_segment;
     dark = dark + change * edge_at(sigmas, change > 0.0 ? -1.0 : 1.0, blur.bleed);

@@ -88,9 +88,9 @@ class DiscLooks {
 
 /// Disc and white ring adjusted, without perspective, from a blur to begin with. Nothing where they do not fit.
 TargetStart fit_core(const GreyPicture& picture, const TargetPlace& place, double blur_px) {
-  constexpr int more_steps = 4;
-  constexpr double least_core_likeness = 0.93;
-  constexpr double least_at_start = 0.80, least_after_a_step = 0.88;  // right ones: 0.90 and 0.93
+  constexpr int more_steps = 2;
+  constexpr double least_at_start = 0.86, least_after_a_step = 0.90,
+                   least_core_likeness = 0.935;  // right ones: 0.895, 0.916, 0.945
   const FitProblem problem = disc_problem(picture, place);
   Appearance look;
   look.place = place;
@@ -99,7 +99,7 @@ TargetStart fit_core(const GreyPicture& picture, const TargetPlace& place, doubl
   FitSums last;
   if (look.black < least_amplitude || quality_of(problem, look).likeness < least_at_start ||
       !refine(problem, look, 1e9, 1, last) || quality_of(problem, look).likeness < least_after_a_step ||
-      !refine(problem, look, 1e9, more_steps, last))
+      !refine_on(problem, look, 1e9, more_steps, last))
     return {};
   const FitQuality quality = quality_of(problem, look);
   if (look.black < least_amplitude || quality.likeness <= least_core_likeness || quality.near < least_core_near)
