@@ -23,7 +23,7 @@ struct DetectedTarget {
 
 struct DetectOptions {
   TargetFitOptions fit;
-  double least_diameter_px = 14.0;
+  double least_diameter_px = 16.0;
 };
 
 /// Every target of the picture, in order of id, then place; a target that is seen twice stands twice. Dark patches are

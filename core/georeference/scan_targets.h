@@ -31,7 +31,7 @@ struct ScanTargetOptions {
   std::vector<TargetCode> codes;  ///< those that may hang there; empty: all
 };
 
-/// Looks at six views about the scanner (scan_view), in which straight lines stay straight: spheres by their shape, the
+/// Looks at 22 views about the scanner (scan_view), in which straight lines stay straight: spheres by their shape, the
 /// others in the intensity, their centres then on the plane of their points. In order of kind, id, and nearest first;
 /// each once. The scan's frame must begin at the scanner. Without intensity, only spheres are found. Longest gap
 /// between two checks for cancel: half a second.

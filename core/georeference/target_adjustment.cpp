@@ -225,12 +225,17 @@ double outlier_limit(const Appearance& look) {
   return std::max(4.0, 0.15 * look.black);
 }
 
-bool lies_near(const FitProblem& problem, const Appearance& look, const PatternPlace& place) {
-  const Eigen::Vector2d pixel = look.place.pixel(place.at);
-  if (!problem.picture->holds(pixel.x(), pixel.y())) return false;
-  const double darkness = shade_of(problem, place, TargetBlur(look.blur_px, look.bleed, look.place.shape)).value;
-  const double off = problem.picture->between(pixel.x(), pixel.y()) - value_of(look, place.at, darkness);
-  return std::abs(off) <= 2.0 * outlier_limit(look);
+FitProblem of_near_places(const FitProblem& problem, const Appearance& look) {
+  const TargetBlur blur(look.blur_px, look.bleed, look.place.shape);
+  const double limit = 2.0 * outlier_limit(look);
+  FitProblem near = problem;
+  std::erase_if(near.grid, [&](const PatternPlace& place) {
+    const Eigen::Vector2d pixel = look.place.pixel(place.at);
+    if (!problem.picture->holds(pixel.x(), pixel.y())) return true;
+    const double value = value_of(look, place.at, shade_of(problem, place, blur).value);
+    return std::abs(problem.picture->between(pixel.x(), pixel.y()) - value) > limit;
+  });
+  return near;
 }
 
 FitQuality quality_of(const FitProblem& problem, const Appearance& look) {

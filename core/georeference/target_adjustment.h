@@ -94,8 +94,9 @@ double unexplained_share(const FitProblem& problem, const Appearance& look);
 /// Beyond so many grey levels a place counts less: a cover, dust, glare.
 double outlier_limit(const Appearance& look);
 
-/// Off by no more than twice that.
-bool lies_near(const FitProblem& problem, const Appearance& look, const PatternPlace& place);
+/// Without the places that are off by more than twice that: they are covered, and rock before a target pulls even where
+/// it weighs little.
+FitProblem of_near_places(const FitProblem& problem, const Appearance& look);
 
 /// Levels of white and black by least squares at a fixed place.
 void set_levels(const FitProblem& problem, Appearance& look);

@@ -33,7 +33,7 @@ constexpr double least_near_of_any = 0.97, least_near_of_known = 0.80;
 /// Before the code is known: place and darkness of the segments by turns. The rims of the ring hold the scale, which
 /// the disc of a small target, blurred as it is, leaves open.
 bool refine_with_any_segments(FitProblem& problem, Appearance& look, int turns) {
-  constexpr int steps = 2;
+  constexpr int steps = 1;
   constexpr double least_after_a_turn = 0.84;  // right ones: 0.857 and more
   FitSums last;
   for (int turn = 0; turn < turns; ++turn) {
@@ -125,20 +125,15 @@ bool shows_the_quarter(const FitProblem& problem, const Appearance& look, bool m
   return dark(0) < most_white && none_white && black >= (may_be_covered ? 2 : 3);
 }
 
-/// Without the places that are covered: rock before a target pulls even where it weighs little.
-FitProblem of_near_places(const FitProblem& problem, const Appearance& look) {
-  FitProblem uncovered = problem;
-  std::erase_if(uncovered.grid, [&](const PatternPlace& place) { return !lies_near(problem, look, place); });
-  return uncovered;
-}
-
 /// The code, and everything adjusted to it. Nothing where the code does not stay the same.
 std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, const std::vector<TargetCode>& codes) {
   constexpr int more_turns = 1, steps = 10, last_steps = 4;
   problem.grid = pattern_grid(0.0, whole_radius, long_radius_px(look.place.shape), places_across);
-  if (!refine_with_any_segments(problem, look, more_turns)) return std::nullopt;
-  const auto first =
-      decode_segments(*problem.picture, look.place, problem.grid, {look.blur_px, look.bleed, look.black}, codes);
+  const auto decode = [&] {
+    return decode_segments(*problem.picture, look.place, problem.grid, {look.blur_px, look.bleed, look.black}, codes);
+  };
+  auto first = decode();
+  if (!first && refine_with_any_segments(problem, look, more_turns)) first = decode();
   if (!first) return std::nullopt;
   for (int k = 0; k < segments; ++k)
     problem.blackness[static_cast<std::size_t>(k)] = is_black(first->code, k) ? 1.0 : 0.0;
@@ -152,11 +147,11 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
   const double wanted_near = covered ? least_disc_near_covered : least_disc_near;
   if (quality.likeness < wanted || quality.near < least_near || quality.core_near < wanted_near) return std::nullopt;
   const FitProblem uncovered = of_near_places(problem, look);
-  if (!refine(uncovered, look, outlier_limit(look), last_steps, last)) return std::nullopt;
+  if (uncovered.grid.size() < problem.grid.size() && !refine(uncovered, look, outlier_limit(look), last_steps, last))
+    return std::nullopt;
   if (look.bleed < least_bleed || look.bleed > most_bleed || unexplained_share(problem, look) > most_unexplained)
     return std::nullopt;
-  const auto decoded =
-      decode_segments(*problem.picture, look.place, problem.grid, {look.blur_px, look.bleed, look.black}, codes);
+  const auto decoded = decode();
   if (!decoded || decoded->code != first->code || decoded->alone != first->alone) return std::nullopt;
   if (!shows_the_quarter(problem, look, !first->alone)) return std::nullopt;
   return TargetReading{decoded->code,    look.place,      look.blur_px,   look.bleed,

@@ -240,7 +240,8 @@ void print_times(const std::vector<Station>& stations) {
   const tbb::global_control one_core(tbb::global_control::max_allowed_parallelism, 1);
   for (const Station& station : stations) {
     const DetectOptions options = options_of(lens, target_code_count);
-    const double find_s = seconds_of(5, [&] { static_cast<void>(detect_targets(station.picture, options, progress)); });
+    const double find_s =
+        seconds_of(20, [&] { static_cast<void>(detect_targets(station.picture, options, progress)); });
     const double pose_s = seconds_of(20, [&] { static_cast<void>(locate_camera(lens, station.sights, {})); });
     std::vector<Eigen::Vector3d> points;
     std::vector<Eigen::Vector2d> seen;

@@ -12,6 +12,7 @@
 #include "render/canvas.h"
 #include "render/gl_context.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/sift_look.h"
 #include "tests/bench/target_pictures.h"
 
 namespace adit::bench {
@@ -127,6 +128,7 @@ void bench_detection(const RockTunnel& tunnel, const RockMesh& rock) {
   const CameraLens lens = picture_lens();
   Progress progress;
   Detections any, known;
+  SiftLook sift;
   const RayCast seen(tunnel);
   for (std::uint64_t picture = 1; any.all.shown < 1000; ++picture) {
     const Random random(picture, 61);
@@ -143,6 +145,7 @@ void bench_detection(const RockTunnel& tunnel, const RockMesh& rock) {
     if (picture <= 6) keep(taken.picture, "targets_" + std::to_string(picture));
     any.add(taken, detect_targets(taken.picture, options_of(lens, target_code_count), progress));
     known.add(taken, detect_targets(taken.picture, options_of(lens, 40), progress));
+    sift.add(taken);
   }
   std::printf(
       "\n### Targets in rendered pictures\n\nA rock tunnel by the light of a lamp, targets of 20 to 400 pixels, up to 60 degrees oblique; exposure a quarter to one and a half, blur 0.5 to 1.1 pixels, noise 0.5 to 2 grey levels and shot noise, up to 60 grains of dust and 4 reflections, gamma 1 or 2.2.\n\n"
@@ -158,6 +161,7 @@ void bench_detection(const RockTunnel& tunnel, const RockMesh& rock) {
     std::printf("| %d to %d degrees | %s | %s | %.3f | %.2f |\n", 15 * tilt, 15 * tilt + 15, share(score).c_str(),
                 share(known.by_tilt.at(tilt)).c_str(), known.by_tilt.at(tilt).rms_px(),
                 known.by_tilt.at(tilt).sigmas());
+  sift.print();
 }
 
 /// Brickwork, wire mesh, bolts with plates and letters, drawn large and seen obliquely.
