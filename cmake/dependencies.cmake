@@ -42,6 +42,8 @@ foreach(module core imgproc imgcodecs features2d calib3d)
   target_link_libraries(adit_opencv INTERFACE ${OPENCV_${module}})
 endforeach()
 
+find_package(JPEG REQUIRED)
+
 # E57 and LAZ: packages of the system, or what packaging/scan_libraries has put into its prefix. The build works without.
 if(DEFINED ENV{ADIT_PREFIX})
   set(adit_prefix $ENV{ADIT_PREFIX})

@@ -7,17 +7,10 @@
 #include "core/foundation/error.h"
 #include "io/bytes.h"
 #include "io/grey_picture_file.h"
+#include "io/grey_picture_jpeg.h"
 
 namespace adit::io {
 namespace {
-
-/// JPEGs end with a marker, which thumbnails inside them have too, and some cameras write after it. What is cut off is
-/// decoded all the same, its rest in grey.
-bool is_cut_off_jpeg(const std::string& bytes) {
-  if (bytes.rfind("\xFF\xD8", 0) != 0) return false;
-  const std::size_t scan = bytes.rfind("\xFF\xDA"), end = bytes.rfind("\xFF\xD9");
-  return end == std::string::npos || (scan != std::string::npos && end < scan);
-}
 
 /// What a TIFF says of how its picture is turned, 1 as it is stored; also where it says nothing.
 int tiff_orientation(const std::string& bytes) {
@@ -40,6 +33,24 @@ int tiff_orientation(const std::string& bytes) {
   return 1;
 }
 
+/// By OpenCV, which knows the formats.
+GreyPicture grey_of_any(const std::string& bytes, const std::string& file) {
+  cv::Mat grey;
+  try {
+    const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+    grey = cv::imdecode(raw, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const cv::Exception&) {
+    grey.release();
+  }
+  if (grey.empty())
+    throw Error("this is no picture, or it is damaged", file, "name a PNG, JPEG, TIFF, BMP or PGM picture");
+  GreyPicture picture(grey.cols, grey.rows);
+  for (int v = 0; v < grey.rows; ++v)
+    std::copy(grey.ptr<std::uint8_t>(v), grey.ptr<std::uint8_t>(v) + grey.cols,
+              picture.pixels.data() + picture.index(0, v));
+  return picture;
+}
+
 }  // namespace
 
 GreyPicture read_grey_picture(const std::filesystem::path& path) {
@@ -50,28 +61,13 @@ GreyPicture read_grey_picture(const std::filesystem::path& path) {
   if (file.size() > largest_file)
     throw Error("the file is larger than 512 MiB", file.name(), "name a PNG, JPEG, TIFF, BMP or PGM picture");
   const std::string bytes = file.beginning(static_cast<std::size_t>(file.size()));
-  if (is_cut_off_jpeg(bytes))
-    throw Error("the picture is cut off: the end of the JPEG is missing", file.name(), "copy it from the camera again");
   if (tiff_orientation(bytes) > 1)
     throw Error("the TIFF says that its picture is to be turned, which the calibration of the camera does not know of",
                 file.name(), "save it without an orientation, as the sensor saw it");
-  cv::Mat grey;
-  try {
-    const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-    // The sensor's own pixels, whichever way the camera was held: the calibration is of those.
-    grey = cv::imdecode(raw, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    grey.release();
-  }
-  if (grey.empty())
-    throw Error("this is no picture, or it is damaged", file.name(), "name a PNG, JPEG, TIFF, BMP or PGM picture");
-  if (grey.cols > longest_side || grey.rows > longest_side)
-    throw Error("the picture is " + std::to_string(grey.cols) + " x " + std::to_string(grey.rows) + " pixels",
+  GreyPicture picture = is_jpeg(bytes) ? grey_of_jpeg(bytes, file.name()) : grey_of_any(bytes, file.name());
+  if (picture.width > longest_side || picture.height > longest_side)
+    throw Error("the picture is " + std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels",
                 file.name(), "use the camera's own pictures, up to 40000 pixels a side");
-  GreyPicture picture(grey.cols, grey.rows);
-  for (int v = 0; v < grey.rows; ++v)
-    std::copy(grey.ptr<std::uint8_t>(v), grey.ptr<std::uint8_t>(v) + grey.cols,
-              picture.pixels.data() + picture.index(0, v));
   return picture;
 }
 

@@ -139,7 +139,7 @@ std::string target_pages(const std::vector<int>& ids, double diameter_mm, const 
   return canvas.finish();
 }
 
-TargetBoard target_board(int first_id, int columns, int rows, double diameter_mm, const PaperSize& paper,
+TargetBoard target_board(const std::vector<int>& ids, int columns, int rows, double diameter_mm, const PaperSize& paper,
                          const DocumentTitle& title) {
   const bool lying = columns > rows;
   const PaperSize sheet = lying ? PaperSize{paper.name, paper.height_mm, paper.width_mm}
@@ -150,6 +150,10 @@ TargetBoard target_board(int first_id, int columns, int rows, double diameter_mm
     throw Error(std::to_string(columns) + " x " + std::to_string(rows) + " targets of " + fixed(diameter_mm, 0) +
                     " mm do not fit on " + paper.name,
                 {}, "use a larger paper, or smaller or fewer targets");
+  const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  if (ids.size() < count)
+    throw Error("a board of " + std::to_string(count) + " targets wants as many ids, not " + std::to_string(ids.size()),
+                {}, "name more ids, or a smaller board");
   TargetBoard board;
   Canvas canvas = Canvas::pdf(sheet.width_mm, sheet.height_mm, title);
   const PaperPoint step(std::floor(10.0 * width / columns) / 10.0, std::floor(10.0 * height / rows) / 10.0);
@@ -157,7 +161,7 @@ TargetBoard target_board(int first_id, int columns, int rows, double diameter_mm
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
       const PaperPoint at = first + PaperPoint(c * step.x(), r * step.y());
-      const int id = first_id + r * columns + c;
+      const int id = ids[board.centres_mm.size()];
       draw_target(canvas, at, diameter_mm, code_of_id(id));
       canvas.text(at + PaperPoint(0.5 * diameter_mm, 0.5 * diameter_mm), std::to_string(id),
                   {.size_mm = 1.8, .colour = colours::grey, .across = Across::centre, .down = Down::middle});

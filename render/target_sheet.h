@@ -26,12 +26,13 @@ void draw_target(Canvas& canvas, const PaperPoint& centre, double diameter_mm, T
 std::string target_pages(const std::vector<int>& ids, double diameter_mm, const PaperSize& paper,
                          const DocumentTitle& title);
 
-/// A board of targets for calibration: one page, `columns` x `rows` of them evenly over the paper.
+/// A board of targets for calibration: one page, `columns` x `rows` of them evenly over the paper, the first ids row by
+/// row. Throws Error when they do not fit, or when there are not so many ids.
 struct TargetBoard {
   std::string pdf;
-  std::vector<PaperPoint> centres_mm;  ///< from the first target: right and up, in order of ids
+  std::vector<PaperPoint> centres_mm;  ///< from the first target: right and up, in order of `ids`
 };
-TargetBoard target_board(int first_id, int columns, int rows, double diameter_mm, const PaperSize& paper,
+TargetBoard target_board(const std::vector<int>& ids, int columns, int rows, double diameter_mm, const PaperSize& paper,
                          const DocumentTitle& title);
 
 }  // namespace adit::render

@@ -27,6 +27,7 @@ HEAVY = {
     r"^ceres/": r"_ceres\.cpp$",
     r"^polyclipping/": r"_clipper\.cpp$",
     r"^opencv2/": r"_opencv\.cpp$",
+    r"^jpeglib\.h$": r"_libjpeg\.cpp$",
     r"^OpenMesh/": r"^core/surface/",
     r"^vtk": r"^render/",
     r"^(GL/)?osmesa": r"^render/gl_context_osmesa\.cpp$",

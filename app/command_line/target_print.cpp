@@ -31,11 +31,11 @@ std::pair<int, int> board_of(const std::string& words) {
   return {columns, rows};
 }
 
-std::string csv_of(const render::TargetBoard& board, int first_id) {
+std::string csv_of(const render::TargetBoard& board, const std::vector<int>& ids) {
   std::string csv = "id,east,north,elevation\n";
   char row[80];
   for (std::size_t i = 0; i < board.centres_mm.size(); ++i) {
-    std::snprintf(row, sizeof row, "%d,%.4f,%.4f,0\n", first_id + static_cast<int>(i), 1e-3 * board.centres_mm[i].x(),
+    std::snprintf(row, sizeof row, "%d,%.4f,%.4f,0\n", ids[i], 1e-3 * board.centres_mm[i].x(),
                   1e-3 * board.centres_mm[i].y());
     csv += row;
   }
@@ -45,14 +45,11 @@ std::string csv_of(const render::TargetBoard& board, int first_id) {
 int print_board(const Arguments& arguments, const std::vector<int>& ids, double diameter_mm,
                 const render::PaperSize& paper, const render::DocumentTitle& title, const CommonOptions& common) {
   const auto [columns, rows] = board_of(arguments.board);
-  if (ids.front() + columns * rows - 1 > target_code_count)
-    throw Error("there are not so many targets from " + std::to_string(ids.front()) + " on", "--ids",
-                "begin with a lower id");
   const render::TargetBoard board = with_place("--board", [&, across = columns, down = rows] {
-    return render::target_board(ids.front(), across, down, diameter_mm, paper, title);
+    return render::target_board(ids, across, down, diameter_mm, paper, title);
   });
   const std::string table = std::filesystem::path(arguments.out).replace_extension(".csv").string();
-  const std::string csv = csv_of(board, ids.front());
+  const std::string csv = csv_of(board, ids);
   // A name that nobody has typed must take the place of nothing.
   if (std::filesystem::exists(table) && io::read_text_file(table) != csv)
     throw Error("this is there already and holds something else; the board's table would take its place", table,
@@ -74,9 +71,8 @@ Action declare_target_print(CLI::App& command) {
   command.add_option("--ids", arguments->ids, "which targets: 1-40,57 (1-40); low ids differ most from one another");
   command.add_option("--size", arguments->size, "diameter of the ring of segments, with its unit (150mm)");
   command.add_option("--paper", arguments->paper, "A5 to A0, Letter, Legal, Tabloid (A4)");
-  command.add_option(
-      "--board", arguments->board,
-      "a board for calibration instead: columns x rows, from the first id on; writes its table beside it");
+  command.add_option("--board", arguments->board,
+                     "a board for calibration instead: columns x rows, of the first ids; writes its table beside it");
   return [arguments](const CommonOptions& common, Progress&) {
     const std::vector<int> ids = ids_of(arguments->ids);
     const double diameter_mm = 1e3 * length_m_of(arguments->size, "--size");

@@ -271,7 +271,7 @@ void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, con
                  const RegistrationOptions& options) {
   if (!result.in_site) {
     const std::string why = context.targets.empty()
-                                ? "there is neither control nor a guess"
+                                ? "neither a control point nor a guess ties the scans to the site"
                                 : "there is no guess, and the targets do not tie the scans to the site (three are "
                                   "needed, not on one line) and are not used";
     const bool matters = context.axis_direction || !context.targets.empty();
@@ -290,9 +290,9 @@ void judge_datum(RegistrationResult& result, const std::vector<Node>& nodes, con
   for (const Node& node : nodes) span_m = std::max(span_m, distance_between_m(node.start, nodes.front().start));
   result.datum_sigma_m = std::hypot(options.guess_sigma_m, 0.5 * span_m * rad_from_deg(options.guess_sigma_deg));
   if (result.datum_sigma_m <= options.undetermined_sigma_m) return;
-  const std::string by = result.datum_scan.empty()
-                             ? "guesses of its scans say, for there are not three targets"
-                             : "the guess of scan " + result.datum_scan + " says, for there is no control";
+  const std::string by = result.datum_scan.empty() ? "guesses of its scans say, for there are not three targets"
+                                                   : "the guess of scan " + result.datum_scan +
+                                                         " says, for no control point is seen in the scans";
   // Without a design nothing is compared with the site.
   const bool compared = static_cast<bool>(context.axis_direction);
   char words[120];

@@ -310,9 +310,13 @@ void add_control(PageFlow& flow, const Results& results) {
 }
 
 /// What makes the registration not accepted, in its own words.
-void add_verdict(PageFlow& flow, const RegistrationResult& registration) {
+void add_verdict(PageFlow& flow, const Results& results) {
+  const RegistrationResult& registration = results.registration;
   if (registration.accepted) {
-    flow.paragraph("Accepted: every scan is placed, every direction is determined.", colours::green, 2.8, true);
+    const bool all = is_accepted(results);
+    flow.paragraph(std::string(all ? "Accepted: every" : "Every") + " scan is placed, every direction is determined." +
+                       (all ? "" : " What is still to be decided by a person stands on page 1."),
+                   all ? colours::green : colours::black, 2.8, true);
     return;
   }
   flow.paragraph("Not accepted. To be decided by a person:", colours::red, 2.8, true);
@@ -326,7 +330,7 @@ void add_verdict(PageFlow& flow, const RegistrationResult& registration) {
 void add_registration_pages(PageFlow& flow, const ReportContent& content) {
   const Results& results = *content.results;
   flow.start("Registration");
-  add_verdict(flow, results.registration);
+  add_verdict(flow, results);
   flow.skip(1.0);
   add_plan(flow, content);
   if (results.registration.scans.empty()) {

@@ -43,12 +43,15 @@ TEST(TargetSheet, PagesAndBoardsFitTheirPaper) {
   EXPECT_GT(pages.size(), 20000U) << "thirty pages";
   EXPECT_THROW(target_pages(ids, 160.0, paper_size("A4"), {}), Error);
   EXPECT_THROW(paper_size("B5"), Error);
-  const TargetBoard board = target_board(101, 7, 5, 30.0, paper_size("A4"), {});
+  std::vector<int> on_board(36);
+  for (int i = 0; i < 36; ++i) on_board[static_cast<std::size_t>(i)] = 101 + 2 * i;
+  const TargetBoard board = target_board(on_board, 7, 5, 30.0, paper_size("A4"), {});
   ASSERT_EQ(board.centres_mm.size(), 35U);
   EXPECT_EQ(board.centres_mm[0], PaperPoint(0.0, 0.0));
   EXPECT_GT(board.centres_mm[6].x(), 6.0 * 33.0);
   EXPECT_LT(board.centres_mm[34].y(), -4.0 * 33.0) << "up is positive";
-  EXPECT_THROW(target_board(1, 10, 10, 30.0, paper_size("A4"), {}), Error);
+  EXPECT_THROW(target_board(on_board, 10, 10, 30.0, paper_size("A4"), {}), Error) << "too large";
+  EXPECT_THROW(target_board(ids, 7, 5, 30.0, paper_size("A4"), {}), Error) << "thirty ids";
 }
 
 TEST(CameraScene, ATargetInThePictureStandsWhereTheLensPutsIt) {
