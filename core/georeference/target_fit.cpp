@@ -25,6 +25,8 @@ constexpr double least_likeness = 0.96, least_likeness_covered = 0.983;
 constexpr double most_unexplained = 0.027;
 // Black creeps over white in ink that runs, white over black by light and gamma: right targets show -0.3 to 0.7.
 constexpr double least_bleed = -0.5, most_bleed = 0.75;
+// Of overexposed paper up to 0.9, beside a likeness of 0.996 and 0.005 that is not explained: no letters come near.
+constexpr double most_bleed_overexposed = 1.2, sure_of_all_likeness = 0.99, sure_of_all_unexplained = 0.01;
 // Shares of places that must lie near the fitted pattern. What is no target, or another code, leaves more of them.
 constexpr double least_soft_near = 0.70, least_disc_near = 0.93;
 constexpr double least_disc_near_covered = 0.98;
@@ -149,7 +151,10 @@ std::optional<TargetReading> read_whole(FitProblem problem, Appearance look, con
   const FitProblem uncovered = of_near_places(problem, look);
   if (uncovered.grid.size() < problem.grid.size() && !refine(uncovered, look, outlier_limit(look), last_steps, last))
     return std::nullopt;
-  if (look.bleed < least_bleed || look.bleed > most_bleed || unexplained_share(problem, look) > most_unexplained)
+  const double unexplained = unexplained_share(problem, look);
+  const bool sure_of_all = quality.likeness > sure_of_all_likeness && unexplained < sure_of_all_unexplained;
+  if (look.bleed < least_bleed || look.bleed > (sure_of_all ? most_bleed_overexposed : most_bleed) ||
+      unexplained > most_unexplained)
     return std::nullopt;
   const auto decoded = decode();
   if (!decoded || decoded->code != first->code || decoded->alone != first->alone) return std::nullopt;

@@ -29,6 +29,7 @@ void bench_io();
 void bench_profiling();
 void bench_profiles();
 void bench_targets();
+void bench_scan_targets();
 /// A row: millions of points, seconds for the index, the first section, a thousand sections.
 void bench_sections(const std::string& job);
 /// A slice of 0.1 m, x from -10 to -9.9 in the frames of the scans, out of an imported job: how many points it holds.

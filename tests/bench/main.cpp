@@ -1,5 +1,5 @@
-// ./dev bench [registration] [paper] [stages] [placement] [tunnels] [io] [profiling] [profiles] [targets]; import.py
-// asks for single rows: sections JOB, slice JOB, decoding FILE
+// ./dev bench [registration] [paper] [stages] [placement] [tunnels] [io] [profiling] [profiles] [targets]
+// [scan_targets]; import.py asks for single rows: sections JOB, slice JOB, decoding FILE
 #include <pcl/console/print.h>
 
 #include <algorithm>
@@ -30,12 +30,13 @@ int main(int argc, char** argv) {
                                                                {"io", adit::bench::bench_io},
                                                                {"profiling", adit::bench::bench_profiling},
                                                                {"profiles", adit::bench::bench_profiles},
-                                                               {"targets", adit::bench::bench_targets}};
+                                                               {"targets", adit::bench::bench_targets},
+                                                               {"scan_targets", adit::bench::bench_scan_targets}};
   for (const std::string& word : wanted)
     if (std::none_of(tables.begin(), tables.end(), [&](const auto& table) { return table.first == word; })) {
       std::fprintf(
           stderr,
-          "bench: there is no table \"%s\"; registration, paper, stages, placement, tunnels, io, profiling, profiles, targets\n",
+          "bench: there is no table \"%s\"; registration, paper, stages, placement, tunnels, io, profiling, profiles, targets, scan_targets\n",
           word.c_str());
       return 2;
     }
