@@ -190,7 +190,7 @@ std::vector<Eigen::Matrix3d> views_about() {
 }
 
 ScanView scan_view(const TileSource& scan, const Eigen::Matrix3d& scan_from_view, double focal_px, Progress& progress) {
-  constexpr double usual_grey = 90.0;
+  constexpr double usual_grey = 40.0;  // paper sends back up to six times what rock does: nothing of it may be cut off
   ScanView view;
   view.scan_from_view = scan_from_view;
   view.focal_px = focal_px;
