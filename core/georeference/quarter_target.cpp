@@ -203,13 +203,14 @@ Cross first_cross(const GreyPicture& picture, const Corner& corner) {
 }
 
 std::optional<FoundQuarters> quarters_at(const GreyPicture& picture, const PixelPlace& place_of, const Corner& corner) {
-  constexpr double most_radius_px = 400.0, growth = 1.35, least_crossing_rad = 0.35;
+  constexpr double most_radius_px = 400.0, growth = 1.35, least_crossing_rad = 0.35, most_loss = 0.015;
   std::optional<CrossFit> best;
   double radius_px = 5.0, held_px = 0.0;
   Cross cross = first_cross(picture, corner);
   for (; radius_px < most_radius_px; radius_px *= growth) {
     const auto fit = adjusted_cross(picture, place_of, cross, radius_px);
     if (!fit || fit->likeness < least_likeness || std::abs(fit->cross.black) < least_contrast) break;
+    if (best && fit->likeness < best->likeness - most_loss) break;  // the rim: rock that happens to suit lies beyond
     // What moves with the radius (rock before a rim) is known no better than that.
     const Eigen::Vector2d moved =
         best ? Eigen::Vector2d(fit->cross.center - best->cross.center) : Eigen::Vector2d(0, 0);

@@ -28,16 +28,19 @@ std::optional<TargetPlane> target_plane(const ScanView& view, const Eigen::Vecto
                                         const std::function<bool(const Eigen::Vector2d&)>& inside) {
   constexpr int rounds = 4;
   constexpr std::size_t least_points = 12;
-  constexpr double least_cosine = 0.17, least_limit_m = 0.001;
-  std::vector<Eigen::Vector3d> points;
+  constexpr double least_cosine = 0.17, least_limit_m = 0.001, inner_share = 0.6;
+  std::vector<Eigen::Vector3d> points, inner;  // rock behind the rim must not turn the plane that the rest is judged by
   const int side = view.grey.width;
   for (int v = std::max(0, static_cast<int>(center.y() - reach_px)); v < std::min<double>(side, center.y() + reach_px);
        ++v)
     for (int u = std::max(0, static_cast<int>(center.x() - reach_px));
          u < std::min<double>(side, center.x() + reach_px); ++u)
-      if (view.has_point(u, v) && inside({u, v})) points.push_back(view.point(u, v));
+      if (view.has_point(u, v) && inside({u, v})) {
+        points.push_back(view.point(u, v));
+        if ((Eigen::Vector2d(u, v) - center).norm() < inner_share * reach_px) inner.push_back(points.back());
+      }
   if (points.size() < least_points) return std::nullopt;
-  TargetPlane plane = plane_of(points);
+  TargetPlane plane = plane_of(inner.size() < least_points ? points : inner);
   for (int round = 0; round < rounds; ++round) {
     const double limit_m = std::max(least_limit_m, 3.0 * plane.rms_m);
     std::vector<Eigen::Vector3d> near;

@@ -193,7 +193,7 @@ CASES = [
     (all_ten_kilometres_east, "surface", 2, r"no point of the scans lies near .*: scan S1 stands \d+ m from the axis", None, False),
     (guess_five_metres_off, "register", 1, r"scan S2: its guess is \d\.\d\d m .* set aside", None, False),
     (guess_far_off_and_turned, "register", 1, r"scan S2: its guess is [89]\.\d\d m and 1[56]\d\.\d degrees .* set aside", r"pair ", False),
-    (neither_control_nor_guess, "volume", 1, r"datum: there is neither .* coordinates are those of scan S1", r"axis", False),
+    (neither_control_nor_guess, "volume", 1, r"datum: neither .* coordinates are those of scan S1", r"axis", False),
     (two_targets_no_guess_and_no_design, "register", 1, r"datum: there is no guess, and the targets do not tie", r"neither", False),
     (scan_one_per_mille_too_large, "register", 1, r"pair S\d - S\d: S\d shows everything (0\.9[5-9]|1\.0[0-5]) per mille", None, False),
     (no_control, "register", 1, r"datum: .*for no control point is seen in the scans", None, False),
