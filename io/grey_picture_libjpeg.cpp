@@ -1,4 +1,5 @@
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
 // jpeglib.h wants cstdio before it.
 #include <jpeglib.h>
@@ -36,13 +37,20 @@ struct Decoder {
   }
 };
 
-/// False where it is damaged. Between setjmp and its end nothing may live that has a destructor.
+constexpr std::uint64_t most_pixels = std::uint64_t{1} << 30;  // as OpenCV takes of the other kinds
+
+/// False where it is damaged, or says that it is larger than any camera's. Between setjmp and its end nothing may live
+/// that has a destructor.
 bool decode(Decoder& decoder, const std::string& bytes, GreyPicture& picture) {
   jpeg_decompress_struct& jpeg = decoder.jpeg;
   if (setjmp(decoder.refused) != 0) return false;
   jpeg_create_decompress(&jpeg);
   jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
   jpeg_read_header(&jpeg, TRUE);
+  if (std::uint64_t{jpeg.image_width} * jpeg.image_height > most_pixels) {
+    std::snprintf(decoder.words, sizeof decoder.words, "%u x %u pixels", jpeg.image_width, jpeg.image_height);
+    return false;
+  }
   jpeg.out_color_space = JCS_GRAYSCALE;
   jpeg_start_decompress(&jpeg);
   picture = GreyPicture(static_cast<int>(jpeg.output_width), static_cast<int>(jpeg.output_height));

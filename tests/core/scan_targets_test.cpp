@@ -82,6 +82,26 @@ TEST(ScanView, EveryDirectionLiesWellInsideOne) {
   for (const Eigen::Matrix3d& view : views) EXPECT_NEAR(view.determinant(), 1.0, 1e-12);
 }
 
+TEST(ScanView, WhitePaperBeforeRockIsNotCutOff) {
+  // A wall 5 m ahead of intensity 0.15, on it a board of 0.9: what is cut off moves the edges of targets.
+  constexpr float rock = 0.15F, paper = 0.9F;
+  PointCloud wall;
+  for (int i = -200; i <= 200; ++i)
+    for (int j = -200; j <= 200; ++j) {
+      wall.points.emplace_back(5.0F, 0.01F * static_cast<float>(i), 0.01F * static_cast<float>(j));
+      wall.intensity.push_back(std::abs(i) < 15 && std::abs(j) < 15 ? paper : rock);
+    }
+  Progress progress;
+  const CloudTiles tiles(wall);
+  const ScanView view = scan_view(tiles, views_about().front(), 400.0, progress);
+  const auto grey_at = [&](double y) {
+    const Eigen::Vector2d pixel = *view.pixel_of({5.0, y, 0.0});
+    return static_cast<double>(view.grey.at(static_cast<int>(pixel.x() + 0.5), static_cast<int>(pixel.y() + 0.5)));
+  };
+  EXPECT_LT(grey_at(0.0), 255.0);
+  EXPECT_NEAR(grey_at(0.0) / grey_at(1.0), static_cast<double>(paper / rock), 0.1);
+}
+
 TEST(ScanTargetsSlow, SpheresQuartersAndCodedOnesWithinAMillimetre) {
   // Points 6 mm apart at 10 m.
   const Seen seen = scanned(0.6, 1);
