@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/demo_pictures.h"
+#include "app/demo_targets.h"
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
 #include "core/foundation/random.h"
@@ -84,6 +85,7 @@ struct Demo {
   Eigen::Vector3d origin;
   double last_station_m;
   JobChainage stretch;
+  std::vector<ScannedTarget> targets;  ///< that the scanners see; local frame
 };
 
 Demo plan_demo(const DemoOptions& options) {
@@ -98,8 +100,11 @@ Demo plan_demo(const DemoOptions& options) {
   rock.first_round_m = first_round_m;
   rock.round_length_m = round_length_m;
   DesignTunnel design = DesignTunnel(axis, {{axis_start_m, demo_profile()}}, {DesignLine{}}).relative_to(origin);
-  return {options, axis,         RockTunnel(std::move(design), rock),
-          origin,  last_station, {first_station_m - 2.0, last_station + 6.0, 1.0}};
+  Demo demo{options, axis,         RockTunnel(std::move(design), rock),
+            origin,  last_station, {first_station_m - 2.0, last_station + 6.0, 1.0},
+            {}};
+  if (options.scan_targets) demo.targets = hung_scan_targets(demo.tunnel, demo.stretch.from_m, face - 1.0);
+  return demo;
 }
 
 Pose true_pose(const Demo& demo, int station) {
@@ -173,6 +178,7 @@ void simulate_scan(const Demo& demo, const Pose& pose, int station, io::ScanSink
   ScannerOptions scanner;
   scanner.seed = demo.options.seed * 1000 + static_cast<std::uint64_t>(station);
   scanner.pulses = demo.options.points;
+  scanner.targets = demo.targets;
   const double s = first_station_m + station_spacing_m * station;
   // People walk between the scans.
   const std::vector<Eigen::Vector2d> people{{s + 4.5, 1.9}, {s - 6.0, -2.4}, {s + 9.0, -0.3 * station}};
@@ -336,8 +342,9 @@ void make_demo(const fs::path& folder, const DemoOptions& options, Progress& pro
   }
   io::write_file_atomically(folder / "axis.xml", io::landxml_text(demo.axis));
   io::write_dxf_profile(folder / "profile.dxf", demo.tunnel.profile());
-  if (options.control) write_control(demo, poses, folder);
+  if (options.control && !options.scan_targets) write_control(demo, poses, folder);
   Job job = demo_job(demo, poses);
+  if (options.scan_targets) write_scan_targets(demo.targets, demo.origin, options.seed, folder, job);
   if (options.pictures_in) take_pictures(demo, poses, folder, job, progress);
   io::write_file_atomically(folder / "job.json", io::job_text(job));
 }

@@ -22,6 +22,9 @@ struct DemoOptions {
   double north_m = 6998765.0;
   double elevation_m = 412.0;
   bool control = true;  ///< write control.csv and targets.csv
+  /// Hang spheres and boards for the scans to be searched for, instead of targets.csv. They need some four million
+  /// pulses a station.
+  bool scan_targets = false;
   /// Hang coded targets, fix a camera to the scanner and take a picture at each station; the scanners then look along
   /// the tunnel. Empty: none. The context is made once, to draw in.
   std::function<std::unique_ptr<render::GlContext>()> pictures_in;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/foundation/angle.h"
+#include "core/georeference/camera_rig.h"
 #include "io/existing_file.h"
 
 namespace adit::io {
@@ -14,24 +15,50 @@ namespace fs = std::filesystem;
 
 constexpr double farthest_m = 5.0;  // from the scanner: beyond, it is not fixed to it
 
-JobCamera read_camera_of_job(const JsonPlace& place, const fs::path& folder) {
-  place.only_keys({"name", "file", "position", "yaw_pitch_roll_deg", "sigma_m", "sigma_deg"});
-  JobCamera camera;
-  camera.name = place.text_or("name", "camera");
-  if (camera.name.empty() || camera.name.size() > 200)
-    place.at("name").refuse("a camera needs a name of 1 to 200 letters", "write one, for instance front");
-  camera.file = existing_file(place.at("file"), folder);
+void check_near_scanner(const JsonPlace& place, const Eigen::Vector3d& position) {
+  if (!(position.cwiseAbs().maxCoeff() <= farthest_m))
+    place.refuse("the camera is more than 5 m from the scanner", "write metres in the scanner's own frame");
+}
+
+/// As results.json gives it after an adjustment.
+void read_lever_arm_matrix(const JsonPlace& place, JobCamera& camera) {
+  const auto values = place.numbers(16);
+  Pose scan_from_camera;
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) scan_from_camera.matrix()(r, c) = values[static_cast<std::size_t>(4 * r + c)];
+  if (!is_rigid(scan_from_camera.matrix()))
+    place.refuse("this is no rigid transform",
+                 "copy the 16 numbers of \"cameras\" in results.json, by rows, the last row 0, 0, 0, 1");
+  camera.position = scan_from_camera.translation();
+  check_near_scanner(place, camera.position);
+  camera.angles = lever_arm_angles(scan_from_camera);
+}
+
+void read_lever_arm(const JsonPlace& place, JobCamera& camera) {
+  if (place.has("scan_from_camera")) {
+    if (place.has("position") || place.has("yaw_pitch_roll_deg"))
+      place.at("scan_from_camera").refuse("the lever arm stands here twice", "leave out position and angles, or this");
+    read_lever_arm_matrix(place.at("scan_from_camera"), camera);
+    return;
+  }
   const auto position = place.at("position").numbers(3);
-  for (const double value : position)
-    if (!(std::abs(value) <= farthest_m))
-      place.at("position")
-          .refuse("the camera is more than 5 m from the scanner", "write metres in the scanner's own frame");
   camera.position = {position[0], position[1], position[2]};
+  check_near_scanner(place.at("position"), camera.position);
   const auto turns = place.at("yaw_pitch_roll_deg").numbers(3);
   for (const double turn : turns)
     if (!(std::abs(turn) <= 360.0))
       place.at("yaw_pitch_roll_deg").refuse("an angle beyond 360 degrees", "degrees are needed");
   camera.angles = {rad_from_deg(turns[0]), rad_from_deg(turns[1]), rad_from_deg(turns[2])};
+}
+
+JobCamera read_camera_of_job(const JsonPlace& place, const fs::path& folder) {
+  place.only_keys({"name", "file", "position", "yaw_pitch_roll_deg", "scan_from_camera", "sigma_m", "sigma_deg"});
+  JobCamera camera;
+  camera.name = place.text_or("name", "camera");
+  if (camera.name.empty() || camera.name.size() > 200)
+    place.at("name").refuse("a camera needs a name of 1 to 200 letters", "write one, for instance front");
+  camera.file = existing_file(place.at("file"), folder);
+  read_lever_arm(place, camera);
   if (place.has("sigma_m")) camera.sigma_m = place.at("sigma_m").number_between(1e-5, 1.0, "m");
   if (place.has("sigma_deg")) camera.sigma_rad = rad_from_deg(place.at("sigma_deg").number_between(1e-4, 10.0, "deg"));
   return camera;

@@ -1,6 +1,7 @@
 #include "render/target_sheet.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "core/foundation/angle.h"
@@ -89,7 +90,9 @@ PaperSize paper_size(const std::string& name) {
       {"Letter", 215.9, 279.4}, {"Legal", 215.9, 355.6}, {"Tabloid", 279.4, 431.8}};
   std::string all;
   for (const PaperSize& size : sizes) {
-    if (size.name == name) return size;
+    if (std::equal(size.name.begin(), size.name.end(), name.begin(), name.end(),
+                   [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); }))
+      return size;
     all += (all.empty() ? "" : ", ") + size.name;
   }
   throw Error("there is no paper " + name, {}, "write one of: " + all);

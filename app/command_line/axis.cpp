@@ -233,7 +233,7 @@ Action declare_axis(CLI::App& command) {
       ->check(some_name);
   command.add_option("--name", arguments->name, "which alignment of a file that holds several");
   auto* every = command.add_option("--every", arguments->every_m, "list whole multiples of this chainage [m] (1)")
-                    ->check(CLI::Range(0.001, 1e6));
+                    ->check(number_between(0.001, 1e6));
   auto* from = command.add_option("--from", arguments->from_m, "list from this chainage on [m]");
   auto* to = command.add_option("--to", arguments->to_m, "list up to this chainage [m]");
   auto* main_points =
@@ -245,10 +245,8 @@ Action declare_axis(CLI::App& command) {
       ->excludes(to)
       ->excludes(main_points);
   command.add_option("--start", arguments->start_m, "chainage of the first point, for files that state none [m]")
-      ->check(CLI::Range(-1e6, 1e7));
+      ->check(number_between(-1e6, 1e7));
   return [arguments](const CommonOptions& common, Progress&) {
-    if (!std::isfinite(arguments->every_m))
-      throw Error("no number of metres", "--every", "write one, for instance 1.0");
     const io::AxisFile file = io::read_axis(arguments->file, arguments->start_m);
     const io::AxisOfFile& read = io::named_axis(file, arguments->name);
     for (const auto& [name, value] : {std::pair("--from", arguments->from_m), std::pair("--to", arguments->to_m)})

@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "core/foundation/error.h"
@@ -28,6 +30,19 @@ inline constexpr int exit_cancelled = 130;
 /// For arguments that name a file or a folder: no name is no place to look.
 inline const CLI::Validator some_name([](const std::string& name) { return name.empty() ? "a name is needed" : ""; },
                                       "", "some_name");
+
+/// For numbers with limits; CLI::Range lets nan through.
+inline CLI::Validator number_between(double least, double most) {
+  char limits[80];
+  std::snprintf(limits, sizeof limits, "from %.15g to %.15g", least, most);
+  return CLI::Validator(
+      [least, most, limits = std::string(limits)](const std::string& word) {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(word, value) && value >= least && value <= most) return std::string();
+        return "\"" + word + "\" is no number " + limits;
+      },
+      limits, "number_between");
+}
 
 /// Thrown by a command that went on with other files where some were bad.
 struct BadFiles {

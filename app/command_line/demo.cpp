@@ -50,12 +50,16 @@ Action declare_demo(CLI::App& command) {
       ->check(CLI::Range(20000, 200000000))
       ->capture_default_str();
   command.add_option("--guess-error-m", arguments->demo.guess_error_m, "how far the guesses are off")
-      ->check(CLI::Range(0.0, 20.0))
+      ->check(number_between(0.0, 20.0))
       ->capture_default_str();
   command.add_option("--guess-error-deg", arguments->demo.guess_error_deg, "how far the guesses are turned")
-      ->check(CLI::Range(0.0, 180.0))
+      ->check(number_between(0.0, 180.0))
       ->capture_default_str();
-  command.add_flag("--no-control", arguments->no_control, "no control points and targets");
+  auto* no_control = command.add_flag("--no-control", arguments->no_control, "no control points and targets");
+  command
+      .add_flag("--targets", arguments->demo.scan_targets,
+                "spheres and boards on the walls, to be found in the scans; with --points 4000000 or more")
+      ->excludes(no_control);
   command.add_flag("--pictures", arguments->pictures,
                    "a camera on the scanner, coded targets on the walls and a picture at each station");
   command.add_flag("--before", arguments->before, "an earlier job, a round back, in DIR/before, to be compared with");

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/foundation/angle.h"
+#include "core/georeference/camera_rig.h"
 
 namespace adit::app {
 namespace {
@@ -50,6 +51,14 @@ void add_registration(std::string& text, const Results& results) {
     add(text, "  picture %s: %zu targets, %.1f mm and %.3f degrees from the rest%s\n", picture.picture.c_str(),
         picture.targets.size(), 1e3 * picture.residual_m.norm(), deg_from_rad(picture.turned_rad.norm()),
         picture.used ? "" : " (not used)");
+  }
+  for (const CameraResult& camera : registration.cameras) {
+    const Eigen::Vector3d p = camera.scan_from_camera.translation();
+    const YawPitchRoll turn = lever_arm_angles(camera.scan_from_camera);
+    add(text,
+        "  camera %s sits at %.4f, %.4f, %.4f m, yaw, pitch, roll %.3f, %.3f, %.3f degrees: %.1f mm and %.3f degrees from what the job says\n",
+        camera.camera.c_str(), p.x(), p.y(), p.z(), deg_from_rad(turn.yaw_rad), deg_from_rad(turn.pitch_rad),
+        deg_from_rad(turn.roll_rad), 1e3 * camera.moved_m, deg_from_rad(camera.moved_rad));
   }
 }
 

@@ -12,7 +12,8 @@
 
 namespace adit::app {
 
-std::vector<int> ids_of(const std::string& words) {
+std::vector<int> ids_of(std::string words) {
+  std::erase(words, ' ');
   std::vector<int> ids;
   std::size_t at = 0;
   while (at <= words.size()) {
@@ -36,7 +37,7 @@ double length_m_of(const std::string& words, const char* option) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(words.data(), words.data() + words.size(), value);
   const std::string unit(end, words.data() + words.size());
-  const double metres = unit == "mm" ? 1e-3 : unit == "cm" ? 1e-2 : unit == "m" ? 1.0 : 0.0;
+  const double metres = unit == "mm" ? 1e-3 : unit == "cm" ? 1e-2 : unit == "m" ? 1.0 : unit == "in" ? 0.0254 : 0.0;
   if (error != std::errc() || metres == 0.0 || !std::isfinite(value) || value <= 0.0)
     throw Error("\"" + words + "\" is no length", option, "write one with its unit, for instance 150mm");
   return value * metres;

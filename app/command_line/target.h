@@ -10,8 +10,8 @@
 
 namespace adit::app {
 
-/// "1-40,57,60-62": each id once, in order. Throws Error for anything else.
-std::vector<int> ids_of(const std::string& words);
+/// "1-40, 57, 60-62": each id once, in order. Throws Error for anything else.
+std::vector<int> ids_of(std::string words);
 
 /// The work's result; an Error without a place gets this one.
 template <typename Work>
@@ -24,7 +24,7 @@ auto with_place(const std::string& where, const Work& work) {
   }
 }
 
-/// "150mm", "15cm", "0.15m" in metres. Throws Error without a unit.
+/// "150mm", "15cm", "0.15m", "6in" in metres. Throws Error without a unit.
 double length_m_of(const std::string& words, const char* option);
 
 /// Each declares one part of adit target.

@@ -76,8 +76,7 @@ int detect(const Arguments& arguments, const CommonOptions& common, Progress& pr
   const DetectOptions options = detect_options(arguments.ids, lens ? lens->focal_px() : 0.0);
   json list = json::array();
   const auto finish = [&] {
-    if (common.json && !list.empty())
-      std::printf("%s\n", list.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
+    if (common.json) std::printf("%s\n", list.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
   };
   try {
     for_each_image(arguments.images, progress, [&](const std::string& image) {
@@ -150,8 +149,7 @@ int locate(const Arguments& arguments, const CommonOptions& common, Progress& pr
   json list = json::array();
   bool needs_a_person = false;
   const auto finish = [&] {
-    if (common.json && !list.empty())
-      std::printf("%s\n", list.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
+    if (common.json) std::printf("%s\n", list.dump(-1, ' ', false, json::error_handler_t::replace).c_str());
   };
   try {
     for_each_image(arguments.images, progress, [&](const std::string& image) {
@@ -270,7 +268,7 @@ Action declare_target_locate(CLI::App& command) {
       ->check(some_name);
   command.add_option("--ids", arguments->ids, "all ids that hang there, in the database or not");
   command.add_option("--landmark-sigma", arguments->pose.landmark_sigma_m, "of each surveyed coordinate [m] (0.003)")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0.0, 1.0));
   return [arguments](const CommonOptions& common, Progress& progress) { return locate(*arguments, common, progress); };
 }
 

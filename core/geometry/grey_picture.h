@@ -36,4 +36,10 @@ struct GreyPicture {
   }
 };
 
+/// A grey value that was measured beside the middle of a pixel.
+struct GreySample {
+  double u = 0.0, v = 0.0;
+  double grey = 0.0;
+};
+
 }  // namespace adit

@@ -274,6 +274,11 @@ Matrix6d covariance_in_site(const Adjusted& adjusted, double factor) {
   return factor * factor * change * adjusted.normal.inverse() * change.transpose();
 }
 
+/// Whether a target may be seen at all. Camera frame.
+bool ahead(const Eigen::Vector3d& in_camera) {
+  return in_camera.z() > 0.01;
+}
+
 /// How far beside its surveyed place the line of sight to a target passes.
 double beside_m(const Scene& scene, const Pose& camera_from_site, std::size_t i) {
   const Eigen::Vector3d at = camera_from_site * scene.points[i];
@@ -290,7 +295,7 @@ void add_residuals(const Scene& scene, const Adjusted& adjusted, const std::vect
     one.id = sights[i].id;
     one.used = std::find(used.begin(), used.end(), i) != used.end();
     const Eigen::Vector3d at = adjusted.camera_from_site * scene.points[i];
-    if (at.z() > 0.01) one.residual_px = scene.pixels[i] - pixel_of(scene.lens, at);
+    if (ahead(at)) one.residual_px = scene.pixels[i] - pixel_of(scene.lens, at);
     if (one.used) {
       one.normalised = normalised_residual(scene, adjusted, covariance, i);
       squares += one.residual_px.squaredNorm();
@@ -307,8 +312,11 @@ void name_left_out(const Scene& scene, const Adjusted& adjusted, const std::vect
   for (std::size_t i = 0; i < sights.size(); ++i) {
     if (std::find(used.begin(), used.end(), i) != used.end()) continue;
     char words[200];
-    std::snprintf(words, sizeof words, "is not used: it is seen %.3f m beside its surveyed place (%.1f pixels)",
-                  beside_m(scene, adjusted.camera_from_site, i), off_px(scene, adjusted.camera_from_site, i));
+    if (ahead(adjusted.camera_from_site * scene.points[i]))
+      std::snprintf(words, sizeof words, "is not used: it is seen %.3f m beside its surveyed place (%.1f pixels)",
+                    beside_m(scene, adjusted.camera_from_site, i), off_px(scene, adjusted.camera_from_site, i));
+    else
+      std::snprintf(words, sizeof words, "is not used: its surveyed place lies behind the camera");
     result.findings.push_back({Severity::decision, "target " + sights[i].id, words,
                                "survey it again: it may have moved, or its id may be wrong in the database"});
   }

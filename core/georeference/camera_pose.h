@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -33,9 +34,9 @@ struct CameraPoseOptions {
 struct LandmarkResidual {
   std::string id;
   bool used = true;
-  Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();
-  double normalised = 0.0;  ///< over its sigma, the worse axis, of those used
-  double across_m = 0.0;    ///< of those not used: how far beside its surveyed place the line of sight passes
+  Eigen::Vector2d residual_px = Eigen::Vector2d::Constant(NAN);  ///< NaN where its place lies behind the camera
+  double normalised = 0.0;                                       ///< over its sigma, the worse axis, of those used
+  double across_m = 0.0;  ///< of those not used: how far beside its surveyed place the line of sight passes
 };
 
 /// The pose by POSIT alone, of the targets that were used.

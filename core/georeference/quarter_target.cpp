@@ -132,7 +132,7 @@ struct CrossFit {
 };
 
 /// Gauss-Newton within a radius; nothing where it leaves the picture or what it began at.
-std::optional<CrossFit> adjusted_cross(const GreyPicture& picture, const PixelPlace& place_of, Cross cross,
+std::optional<CrossFit> adjusted_cross(const GreyPicture& picture, const SampleOf& sample_of, Cross cross,
                                        double radius_px) {
   constexpr int rounds = 8;
   constexpr double farthest_px = 3.0, least_blur_px = 0.3, most_blur_px = 3.0;
@@ -149,11 +149,11 @@ std::optional<CrossFit> adjusted_cross(const GreyPicture& picture, const PixelPl
       for (int u = static_cast<int>(cross.center.x() - radius_px); u <= static_cast<int>(cross.center.x() + radius_px);
            ++u) {
         if (u < 0 || v < 0 || u >= picture.width || v >= picture.height) return std::nullopt;
-        const auto place = place_of ? place_of(u, v) : std::optional(Eigen::Vector2d(u, v));
-        if (!place) continue;
-        const Eigen::Vector2d& pixel = *place;
+        const auto sample = sample_of ? sample_of(u, v) : GreySample{1.0 * u, 1.0 * v, 1.0 * picture.at(u, v)};
+        if (!sample) continue;
+        const Eigen::Vector2d pixel(sample->u, sample->v);
         if ((pixel - cross.center).squaredNorm() > radius_px * radius_px) continue;
-        const double grey = picture.at(u, v), off = grey - grey_of(cross, pixel, row);
+        const double grey = sample->grey, off = grey - grey_of(cross, pixel, row);
         normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
         right += off * row;
         squares += off * off;
@@ -202,13 +202,13 @@ Cross first_cross(const GreyPicture& picture, const Corner& corner) {
   return cross;
 }
 
-std::optional<FoundQuarters> quarters_at(const GreyPicture& picture, const PixelPlace& place_of, const Corner& corner) {
+std::optional<FoundQuarters> quarters_at(const GreyPicture& picture, const SampleOf& sample_of, const Corner& corner) {
   constexpr double most_radius_px = 400.0, growth = 1.35, least_crossing_rad = 0.35, most_loss = 0.015;
   std::optional<CrossFit> best;
   double radius_px = 5.0, held_px = 0.0;
   Cross cross = first_cross(picture, corner);
   for (; radius_px < most_radius_px; radius_px *= growth) {
-    const auto fit = adjusted_cross(picture, place_of, cross, radius_px);
+    const auto fit = adjusted_cross(picture, sample_of, cross, radius_px);
     if (!fit || fit->likeness < least_likeness || std::abs(fit->cross.black) < least_contrast) break;
     if (best && fit->likeness < best->likeness - most_loss) break;  // the rim: rock that happens to suit lies beyond
     // What moves with the radius (rock before a rim) is known no better than that.
@@ -240,14 +240,14 @@ std::optional<FoundQuarters> quarters_at(const GreyPicture& picture, const Pixel
 
 }  // namespace
 
-std::vector<FoundQuarters> find_quarters(const GreyPicture& picture, const PixelPlace& place_of, Progress& progress) {
+std::vector<FoundQuarters> find_quarters(const GreyPicture& picture, const SampleOf& sample_of, Progress& progress) {
   const std::vector<Corner> corners = corners_of(picture, progress);
   std::vector<std::optional<FoundQuarters>> fitted(corners.size());
   parallel_for_each_index(
       corners.size(),
       [&](std::size_t i) {
         progress.check();
-        fitted[i] = quarters_at(picture, place_of, corners[i]);
+        fitted[i] = quarters_at(picture, sample_of, corners[i]);
       },
       16);
   std::vector<FoundQuarters> found;

@@ -25,8 +25,8 @@ struct FoundQuarters {
 /// Places where a ring of 5 pixels is bright, dark, bright and dark by turns (ChESS, Bennett and Lasenby 2014), each
 /// adjusted: crossing, both directions, blur, black and white. The radius grows as long as the picture keeps to the
 /// pattern. Those within which fewer than 6 pixels do are left out.
-/// place_of: where the grey value of a pixel stands, nothing for one that none was measured of; empty: in its middle.
-using PixelPlace = std::function<std::optional<Eigen::Vector2d>(int u, int v)>;
-std::vector<FoundQuarters> find_quarters(const GreyPicture& picture, const PixelPlace& place_of, Progress& progress);
+/// sample_of: what was measured in a pixel, if anything, to adjust them to; empty: its grey value, in its middle.
+using SampleOf = std::function<std::optional<GreySample>(int u, int v)>;
+std::vector<FoundQuarters> find_quarters(const GreyPicture& picture, const SampleOf& sample_of, Progress& progress);
 
 }  // namespace adit

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/foundation/angle.h"
+#include "core/georeference/coded_points.h"
 #include "core/georeference/detect_targets.h"
 #include "core/georeference/quarter_target.h"
 #include "core/georeference/scan_view.h"
@@ -51,11 +52,8 @@ double along_edges_m(const ScanView& view, const TargetPlane& plane, const Found
 
 void add_quarters(const ScanView& view, std::vector<ScanTarget>& targets, Progress& progress) {
   constexpr double least_size_m = 0.06, most_size_m = 1.0, most_askew_rad = 0.14;
-  // The points of a pixel lie beside its middle, over a small board all to one side: scan and view have other rasters.
-  const PixelPlace place_of = [&view](int u, int v) {
-    return view.has_point(u, v) ? view.pixel_of(view.point(u, v)) : std::nullopt;
-  };
-  for (const FoundQuarters& quarters : find_quarters(view.grey, place_of, progress)) {
+  const SampleOf sample_of = [&view](int u, int v) { return view.sample(u, v); };
+  for (const FoundQuarters& quarters : find_quarters(view.grey, sample_of, progress)) {
     const auto plane = target_plane(view, quarters.center, quarters.radius_px, [&](const Eigen::Vector2d& pixel) {
       return (pixel - quarters.center).norm() < quarters.radius_px;
     });
@@ -69,17 +67,9 @@ void add_quarters(const ScanView& view, std::vector<ScanTarget>& targets, Progre
   }
 }
 
-/// Of a coded target on its plane, the mean of both axes of its pattern.
-double diameter_m(const ScanView& view, const TargetPlane& plane, const TargetPlace& place) {
-  const auto apart_m = [&](const Eigen::Vector2d& rim) {
-    return (plane.met_by(view.direction(place.pixel(rim))) - plane.met_by(view.direction(place.pixel(-rim)))).norm();
-  };
-  return 0.5 * (apart_m({1.0, 0.0}) + apart_m({0.0, 1.0}));
-}
-
 void add_coded(const ScanView& view, const std::vector<TargetCode>& codes, std::vector<ScanTarget>& targets,
                Progress& progress) {
-  constexpr double least_size_m = 0.04, most_size_m = 1.0, points_beside_px = 0.2;
+  constexpr double least_size_m = 0.04, most_size_m = 1.0;
   DetectOptions options;
   options.fit.focal_length_px = view.focal_px;
   options.fit.codes = codes;
@@ -89,14 +79,9 @@ void add_coded(const ScanView& view, const std::vector<TargetCode>& codes, std::
       return (pattern_from_pixel * (pixel - found.center)).norm() < 1.0;
     });
     if (!plane || plane->rms_m > most_rms_m) continue;
-    const double size_m = diameter_m(view, *plane, found.reading.place);
-    if (size_m < least_size_m || size_m > most_size_m) continue;
-    // A pixel's grey value is that of its points, which lie beside its middle: where the edges of a target run along
-    // the rows of a scan, all to one side. Measured: up to 0.4 pixels.
-    const Eigen::Matrix2d covariance_px2 =
-        found.covariance_px2 + points_beside_px * points_beside_px * Eigen::Matrix2d::Identity();
-    const PlanePlace place = place_on_plane(view, *plane, found.center, covariance_px2);
-    targets.push_back({TargetKind::coded, found.id, place.at, with_least(place.sigma_m), size_m,
+    const std::optional<CodedOnPlane> coded = coded_on_plane(view, *plane, found);
+    if (!coded || coded->diameter_m < least_size_m || coded->diameter_m > most_size_m) continue;
+    targets.push_back({TargetKind::coded, found.id, coded->center, with_least(coded->sigma_m), coded->diameter_m,
                        static_cast<int>(found.diameter_px)});
   }
 }

@@ -20,6 +20,7 @@ struct Means {
   std::vector<Eigen::Vector3f> points;
   std::vector<float> intensity;
   std::vector<std::uint16_t> count;
+  std::vector<float> shared, weight;  ///< intensity of the points about it, the nearer the more, and their weights
 };
 
 /// Whether anything of a box may lie in a view: none of its corners need, where it is large.
@@ -30,6 +31,20 @@ bool may_show(const BoundingBox& box, const Eigen::Matrix3d& scan_from_view) {
   const double off = std::acos(std::clamp(middle.z() / middle.norm(), -1.0, 1.0));
   const double corner = std::atan(std::sqrt(2.0) * half_width);
   return off - std::asin(std::min(1.0, reach / middle.norm())) <= corner;
+}
+
+/// Gives a point's intensity to the four pixels about it.
+void share(float intensity, float u, float v, const GreyPicture& picture, Means& means) {
+  const int left = static_cast<int>(std::floor(u)), above = static_cast<int>(std::floor(v));
+  const float a = u - static_cast<float>(left), b = v - static_cast<float>(above);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 2; ++x) {
+      if (left + x < 0 || above + y < 0 || left + x >= picture.width || above + y >= picture.height) continue;
+      const std::size_t at = picture.index(left + x, above + y);
+      const float weight = (x == 0 ? 1.0F - a : a) * (y == 0 ? 1.0F - b : b);
+      means.shared[at] += weight * intensity;
+      means.weight[at] += weight;
+    }
 }
 
 void take(const PointCloud& cloud, const ScanView& view, Means& means) {
@@ -46,7 +61,9 @@ void take(const PointCloud& cloud, const ScanView& view, Means& means) {
     if (means.count[at] == std::numeric_limits<std::uint16_t>::max()) continue;
     const auto n = static_cast<float>(++means.count[at]);
     means.points[at] += (cloud.points[i] - means.points[at]) / n;
-    if (cloud.has_intensity()) means.intensity[at] += (cloud.intensity[i] - means.intensity[at]) / n;
+    if (!cloud.has_intensity()) continue;
+    means.intensity[at] += (cloud.intensity[i] - means.intensity[at]) / n;
+    share(cloud.intensity[i], u - 0.5F, v - 0.5F, view.grey, means);
   }
 }
 
@@ -57,7 +74,8 @@ Means means_of(const TileSource& scan, const ScanView& view, Progress& progress)
     if (may_show(scan.box(tile), view.scan_from_view)) tiles.push_back(tile);
   const std::size_t pixels = view.grey.pixels.size();
   Means means{std::vector<Eigen::Vector3f>(pixels, Eigen::Vector3f::Zero()), std::vector<float>(pixels, 0.0F),
-              std::vector<std::uint16_t>(pixels, 0)};
+              std::vector<std::uint16_t>(pixels, 0), std::vector<float>(pixels, 0.0F),
+              std::vector<float>(pixels, 0.0F)};
   for (std::size_t first = 0; first < tiles.size(); first += tiles_at_once) {
     progress.step(first, tiles.size());
     std::vector<PointCloud> read(std::min(tiles_at_once, tiles.size() - first));
@@ -138,6 +156,13 @@ std::optional<Eigen::Vector2d> ScanView::pixel_of(const Eigen::Vector3d& in_scan
   return Eigen::Vector2d(middle_px() + focal_px * p.x() / p.z(), middle_px() + focal_px * p.y() / p.z());
 }
 
+std::optional<GreySample> ScanView::sample(int u, int v) const {
+  if (!has_point(u, v)) return std::nullopt;
+  const auto pixel = pixel_of(point(u, v));
+  if (!pixel) return std::nullopt;
+  return GreySample{pixel->x(), pixel->y(), static_cast<double>(point_grey.at(u, v))};
+}
+
 double view_focal_px(const TileSource& scan) {
   constexpr double most_px = 2400.0, least_px = 100.0, points_a_pixel = 1.2;
   constexpr int rows = 90, columns = 180;  // of equal solid angle
@@ -195,7 +220,7 @@ ScanView scan_view(const TileSource& scan, const Eigen::Matrix3d& scan_from_view
   view.scan_from_view = scan_from_view;
   view.focal_px = focal_px;
   const int side = 2 * static_cast<int>(half_width * focal_px) + 1;
-  view.grey = GreyPicture(side, side);
+  view.grey = view.point_grey = GreyPicture(side, side);
   Means means = means_of(scan, view, progress);
   std::vector<std::uint8_t> known(means.count.size());
   for (std::size_t i = 0; i < means.count.size(); ++i) {
@@ -204,10 +229,15 @@ ScanView scan_view(const TileSource& scan, const Eigen::Matrix3d& scan_from_view
   }
   view.points = std::move(means.points);
   const UsualIntensity usual(view, means.intensity);
-  for (std::size_t i = 0; i < known.size(); ++i)
-    if (known[i])
-      view.grey.pixels[i] = static_cast<std::uint8_t>(std::clamp(
-          usual_grey * static_cast<double>(means.intensity[i]) / usual.at(view.points[i].norm()) + 0.5, 0.0, 255.0));
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (!known[i] || !(means.weight[i] > 0.0F)) continue;
+    const double scale = usual_grey / usual.at(view.points[i].norm());
+    const auto grey = [scale](float intensity) {
+      return static_cast<std::uint8_t>(std::clamp(scale * static_cast<double>(intensity) + 0.5, 0.0, 255.0));
+    };
+    view.point_grey.pixels[i] = grey(means.intensity[i]);
+    view.grey.pixels[i] = grey(means.shared[i] / means.weight[i]);
+  }
   fill_gaps(view.grey, known);
   return view;
 }

@@ -17,7 +17,8 @@ namespace adit {
 struct ScanView {
   Eigen::Matrix3d scan_from_view = Eigen::Matrix3d::Identity();
   double focal_px = 0.0;
-  GreyPicture grey;                     ///< intensity over what is usual at its range; without any, all is 0
+  GreyPicture grey;        ///< to look at: intensity over what is usual at its range, between the points; 0 without any
+  GreyPicture point_grey;  ///< to adjust to: of each pixel the mean of its own points
   std::vector<Eigen::Vector3f> points;  ///< of each pixel the mean of its points, scan frame; NaN where it has none
 
   double middle_px() const { return 0.5 * (grey.width - 1); }
@@ -27,6 +28,9 @@ struct ScanView {
   std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector3d& in_scan) const;
   bool has_point(int u, int v) const { return points[grey.index(u, v)].x() == points[grey.index(u, v)].x(); }
   Eigen::Vector3d point(int u, int v) const { return points[grey.index(u, v)].cast<double>(); }
+  /// The points of a pixel, which lie beside its middle, over a small target all to one side: scan and view have other
+  /// rasters.
+  std::optional<GreySample> sample(int u, int v) const;
 };
 
 /// Pixels for a unit of the plane z = 1 at which most pixels of a view hold a point: by how dense the scan is where it

@@ -61,8 +61,7 @@ PlanePlace place_on_plane(const ScanView& view, const TargetPlane& plane, const 
   Eigen::Matrix<double, 3, 2> by_pixel;
   for (int k = 0; k < 2; ++k)
     by_pixel.col(k) = plane.met_by(view.direction(pixel + Eigen::Vector2d::Unit(k))) - place.at;
-  const double cosine = plane.normal.dot(direction);
-  const double along_m = plane.rms_m / std::sqrt(static_cast<double>(plane.points)) / cosine;
+  const double along_m = plane.sigma_along_m(direction);
   const Eigen::Matrix3d covariance =
       by_pixel * covariance_px2 * by_pixel.transpose() + along_m * along_m * direction * direction.transpose();
   place.sigma_m = std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()(2)));

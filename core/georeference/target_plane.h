@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -20,6 +21,10 @@ struct TargetPlane {
   /// Where the line of sight of a direction meets it.
   Eigen::Vector3d met_by(const Eigen::Vector3d& direction) const {
     return direction * (normal.dot(middle) / normal.dot(direction));
+  }
+  /// How well it is known there along the line of sight, one sigma. `direction`: unit.
+  double sigma_along_m(const Eigen::Vector3d& direction) const {
+    return rms_m / std::sqrt(static_cast<double>(points)) / std::abs(normal.dot(direction));
   }
 };
 

@@ -114,6 +114,7 @@ void bench_scan_targets() {
   const RockTunnel tunnel = picture_tunnel(1);
   bench_spacing(tunnel, 0.3, 4);
   bench_spacing(tunnel, 0.6, 8);
+  bench_spacing(tunnel, 0.9, 4);
 }
 
 }  // namespace adit::bench

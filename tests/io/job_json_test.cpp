@@ -1,7 +1,9 @@
 #include "io/job_json.h"
+#include "core/georeference/camera_rig.h"
 
 #include <gtest/gtest.h>
 
+#include "core/georeference/camera_rig.h"
 #include "io/atomic_file.h"
 #include "tests/temporary_folder.h"
 
@@ -68,6 +70,29 @@ TEST(JobJson, TargetsCamerasAndPicturesComeBackFromTheirText) {
   EXPECT_EQ(back.scan_targets.sphere_diameter_m, 0.145);
   EXPECT_TRUE(back.scan_targets.quarters);
   EXPECT_FALSE(back.scan_targets.coded);
+}
+
+TEST(JobJson, ALeverArmOfTheResultsIsTheSameOneByAngles) {
+  const tests::TemporaryFolder folder;
+  for (const char* file : {"s1.ply", "cam.yaml"}) write_file_atomically(folder.path() / file, "x");
+  const YawPitchRoll angles{0.5, -0.25, 0.125};
+  const Pose lever = lever_arm({0.1, -0.2, 0.3}, angles);
+  std::string numbers;
+  for (int i = 0; i < 16; ++i) {
+    char number[40];
+    std::snprintf(number, sizeof number, "%s%.17g", i == 0 ? "" : ", ", lever.matrix()(i / 4, i % 4));
+    numbers += number;
+  }
+  write_file_atomically(folder.path() / "job.json",
+                        R"({"adit": 1, "name": "lever", "scans": [{"name": "S1", "file": "s1.ply"}],
+                            "cameras": [{"file": "cam.yaml", "scan_from_camera": [)" +
+                            numbers + "]}]}");
+  const Job job = read_job(folder.path() / "job.json");
+  ASSERT_EQ(job.cameras.size(), 1U);
+  const JobCamera& camera = job.cameras.front();
+  EXPECT_TRUE(lever_arm(camera.position, camera.angles).isApprox(lever, 1e-12));
+  EXPECT_NEAR(camera.angles.roll_rad, 0.125, 1e-12);
+  EXPECT_EQ(job_text(read_job(folder.path() / "job.json")), job_text(job));
 }
 
 }  // namespace
