@@ -43,8 +43,7 @@ void write_scan_targets(const std::vector<ScannedTarget>& targets, const Eigen::
   std::vector<ControlPoint> surveyed;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const Eigen::Vector3d noise(random.normal(3 * i), random.normal(3 * i + 1), random.normal(3 * i + 2));
-    surveyed.push_back(
-        {name_of(targets[i], i), targets[i].pose.translation() + origin + surveyed_sigma_m * noise});
+    surveyed.push_back({name_of(targets[i], i), targets[i].pose.translation() + origin + surveyed_sigma_m * noise});
   }
   io::write_file_atomically(folder / "control.csv", io::control_csv_text(surveyed));
   job.control = "control.csv";

@@ -11,12 +11,12 @@
 
 namespace adit::app {
 
-/// Spheres of 145 mm, boards of quarters of 300 mm and coded ones of 300 mm by turns, one every 1.3 m, on both walls and
-/// the roof; boards face those who come up the chainage. Frame: the tunnel's.
+/// Spheres of 145 mm, boards of quarters of 300 mm and coded ones of 300 mm by turns, one every 1.3 m, on both walls
+/// and the roof; boards face those who come up the chainage. Frame: the tunnel's.
 std::vector<ScannedTarget> hung_scan_targets(const RockTunnel& tunnel, double from_m, double to_m);
 
-/// Writes control.csv (survey's noise: 0.7 mm), in which coded ones stand by their number, and tells the job to look for
-/// the targets. origin: site minus local.
+/// Writes control.csv (survey's noise: 0.7 mm), in which coded ones stand by their number, and tells the job to look
+/// for the targets. origin: site minus local.
 void write_scan_targets(const std::vector<ScannedTarget>& targets, const Eigen::Vector3d& origin, std::uint64_t seed,
                         const std::filesystem::path& folder, Job& job);
 

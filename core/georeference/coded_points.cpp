@@ -67,7 +67,8 @@ double grey_at(const Pattern& pattern, const Look& look, const Eigen::Vector2d& 
   const Eigen::Vector2d off = at_m - look.head<2>();
   const double c = std::cos(look(2)), s = std::sin(look(2)), radius_m = std::exp(look(3));
   const PatternPlace place(Eigen::Vector2d(c * off.x() + s * off.y(), c * off.y() - s * off.x()) / radius_m);
-  return look(5) - look(6) * shade_of(pattern.blackness, place, TargetBlur(std::exp(look(4)), look(7), pattern.shape)).value;
+  return look(5) -
+         look(6) * shade_of(pattern.blackness, place, TargetBlur(std::exp(look(4)), look(7), pattern.shape)).value;
 }
 
 struct Normals {
@@ -89,8 +90,7 @@ Normals normals_of(const std::vector<PointGrey>& points, const Pattern& pattern,
       Look more = look, less = look;
       more(k) += step(k);
       less(k) -= step(k);
-      row(k) = (grey_at(pattern, more, point.at_m) - grey_at(pattern, less, point.at_m)) /
-               (2.0 * step(k));
+      row(k) = (grey_at(pattern, more, point.at_m) - grey_at(pattern, less, point.at_m)) / (2.0 * step(k));
     }
     const double weight = std::abs(off) <= limit ? 1.0 : limit / std::abs(off);
     sums.normal += weight * row * row.transpose();
@@ -158,8 +158,7 @@ std::optional<CodedOnPlane> coded_on_plane(const ScanView& view, const TargetPla
   const double along_m = plane.sigma_along_m(sight);
   const Eigen::Matrix3d covariance =
       axes * fit->center_covariance_m2 * axes.transpose() + along_m * along_m * sight * sight.transpose();
-  coded.sigma_m =
-      std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()(2)));
+  coded.sigma_m = std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()(2)));
   coded.diameter_m = 2.0 * std::exp(fit->look(3));
   return coded;
 }

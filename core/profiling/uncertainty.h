@@ -29,8 +29,8 @@ double noise_squared_m2(const MapCell& cell);
 /// outward normal n changes the volume by a (n . t) when the scans move by t, and by a b when distances are off by b.
 /// Counted: datum and registration (across and up over the surface, along at both ends), a common bias of the
 /// distances, point noise, interpolated pieces (spread of the rock, correlated over half a square metre) and unseen
-/// pieces (mean deviation of what was seen, fully correlated). Overbreak counts what lies outside the line, underbreak
-/// what lies inside.
+/// pieces (mean deviation of what was seen about the same place of the profile, fully correlated). Overbreak counts
+/// what lies outside the line, underbreak what lies inside.
 enum class VolumePart { excavated, over, under };
 double volume_sigma_m3(const DeviationMap& map, const DesignTunnel& design, const DesignLine& line, double from_m,
                        double to_m, VolumePart part, const RegistrationResult& registration,

@@ -49,8 +49,7 @@ TEST(TargetJobSlow, TargetsFoundInTheScansOfADemoPlaceThem) {
                                   [](const FoundTarget& target) { return target.kind == TargetKind::coded; });
   ASSERT_NE(coded, results.targets.found.end());
   const std::string id = coded->id;
-  io::write_file_atomically(folder / "control.csv",
-                            with_point_moved(io::read_text_file(folder / "control.csv"), id));
+  io::write_file_atomically(folder / "control.csv", with_point_moved(io::read_text_file(folder / "control.csv"), id));
   const auto moved = tests::run(folder.path(), {}, "register");
   EXPECT_TRUE(needs_a_person(moved->results));
   const Findings findings = all_findings(moved->results);
