@@ -1,6 +1,7 @@
 #include "app/find_targets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -37,6 +38,28 @@ void report_contradiction(const std::string& subject, const UnnamedTarget& targe
                 target.id.c_str(), (local_from_scan * target.in_scan - point->position).norm(), target.id.c_str());
   findings.push_back({Severity::decision, subject, words,
                       "survey the point again: it may have moved, or its id may be wrong in the control file"});
+}
+
+/// Control points that no target lies on, with a nameless target beside them. How many.
+std::size_t report_moved(const std::string& subject, const std::vector<UnnamedTarget>& targets,
+                         const TargetMatch& match, const std::vector<ControlPoint>& control, Findings& findings) {
+  constexpr double beside_m = 0.5;
+  std::size_t moved = 0;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (match.control[k] || !targets[k].id.empty()) continue;
+    const Eigen::Vector3d at = *match.local_from_scan * targets[k].in_scan;
+    for (std::size_t c = 0; c < control.size(); ++c) {
+      const double off_m = (at - control[c].position).norm();
+      if (off_m > beside_m || std::find(match.control.begin(), match.control.end(), c) != match.control.end()) continue;
+      char words[200];
+      std::snprintf(words, sizeof words,
+                    "a target is found %.3f m from control point %.40s, on which none lies: it is not used", off_m,
+                    control[c].id.c_str());
+      findings.push_back({Severity::decision, subject, words, "survey the point again: it may have moved"});
+      ++moved;
+    }
+  }
+  return moved;
 }
 
 /// Those of one scan by control: coded ones that nobody surveyed take no part.
@@ -78,7 +101,8 @@ void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarge
     ++contradicting;
     report_contradiction(subject, unnamed[k], control, *match.local_from_scan, findings);
   }
-  nameless -= contradicting;
+  if (match.local_from_scan) contradicting += report_moved(subject, unnamed, match, control, findings);
+  nameless -= std::min(nameless, contradicting);
   if (seen.empty()) {
     findings.push_back({Severity::warning, subject, "none of the targets the job asks for is found in it",
                         "scan more densely, or nearer to them"});
@@ -95,10 +119,38 @@ void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarge
   }
 }
 
+/// The diameter that the spheres themselves show, over that of the job. A wrong one moves every centre along its line
+/// of sight, and all alike.
+struct SphereSizes {
+  double weights = 0.0, weighted_m = 0.0;
+
+  void add(const std::vector<ScanTarget>& seen) {
+    for (const ScanTarget& target : seen) {
+      if (target.kind != TargetKind::sphere) continue;
+      const double weight = 1.0 / std::max(1e-12, target.size_sigma_m * target.size_sigma_m);
+      weights += weight;
+      weighted_m += weight * target.size_m;
+    }
+  }
+  void report(double diameter_m, Findings& findings) const {
+    constexpr double most_sigmas = 4.0, most_off_m = 0.0015;
+    if (weights <= 0.0) return;
+    const double mean_m = weighted_m / weights, sigma_m = 1.0 / std::sqrt(weights);
+    if (std::abs(mean_m - diameter_m) <= std::max(most_off_m, most_sigmas * sigma_m)) return;
+    char words[160];
+    std::snprintf(
+        words, sizeof words,
+        "the spheres measure %.1f mm across (sigma %.1f), the job says %.1f: their centres are off by half of the difference",
+        1e3 * mean_m, 1e3 * sigma_m, 1e3 * diameter_m);
+    findings.push_back({Severity::decision, "targets", words, "correct sphere_diameter in job.json"});
+  }
+};
+
 }  // namespace
 
 std::vector<FoundTarget> find_targets(const JobState& state, Findings& findings, Progress& progress) {
   std::vector<FoundTarget> found;
+  SphereSizes sizes;
   for (std::size_t i = 0; i < state.stores.size(); ++i) {
     Progress part = progress.part(1.0 / static_cast<double>(state.stores.size()),
                                   "looking for targets in " + state.job.scans[i].name);
@@ -108,8 +160,11 @@ std::vector<FoundTarget> find_targets(const JobState& state, Findings& findings,
                           "export it in the scanner's own frame"});
       continue;
     }
-    name_targets(state, i, find_scan_targets(*state.stores[i], options_of(state), part), found, findings, part);
+    std::vector<ScanTarget> seen = find_scan_targets(*state.stores[i], options_of(state), part);
+    sizes.add(seen);
+    name_targets(state, i, std::move(seen), found, findings, part);
   }
+  sizes.report(state.job.scan_targets.sphere_diameter_m, findings);
   return found;
 }
 

@@ -1,5 +1,6 @@
 #include "app/landmarks.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string>
 
@@ -28,6 +29,21 @@ Landmarks read_landmarks(const std::filesystem::path& file) {
     throw Error("it holds no coded target", file.string(),
                 "write id,east,north,elevation with ids from 1 to " + std::to_string(target_code_count));
   return landmarks;
+}
+
+CameraPose locate_by_landmarks(const CameraLens& lens, const std::vector<LandmarkSight>& sights,
+                               const std::vector<int>& unknown, const CameraPoseOptions& options) {
+  try {
+    return locate_camera(lens, sights, options);
+  } catch (const Error& error) {
+    if (unknown.empty()) throw;
+    constexpr std::size_t most_named = 12;
+    std::string ids;
+    for (std::size_t i = 0; i < std::min(unknown.size(), most_named); ++i)
+      ids += (ids.empty() ? "" : ", ") + std::to_string(unknown[i]);
+    if (unknown.size() > most_named) ids += " and more";
+    throw Error(error.what_is_wrong() + " (seen, too, and in no table: " + ids + ")", error.where(), error.mend());
+  }
 }
 
 }  // namespace adit::app

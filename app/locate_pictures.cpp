@@ -1,5 +1,6 @@
 #include "app/locate_pictures.h"
 
+#include "app/landmarks.h"
 #include "core/foundation/error.h"
 #include "core/georeference/camera_pose.h"
 #include "core/georeference/detect_targets.h"
@@ -42,18 +43,20 @@ LocatedPicture locate_picture(const JobState& state, const JobScan& scan, const 
   located.result.camera = state.job.cameras[camera].name;
   const GreyPicture grey = io::read_grey_picture(state.folder / picture.file, lens);
   std::vector<LandmarkSight> sights;
+  std::vector<int> unknown;
   for (const DetectedTarget& target : detect_targets(grey, detect_options(state, lens), progress)) {
     const auto surveyed = state.landmarks.find(target.id);
     if (surveyed == state.landmarks.end())
-      located.result.unknown.push_back(std::to_string(target.id));
+      unknown.push_back(target.id);
     else
       sights.push_back({std::to_string(target.id), state.results.import.origin.to_local(surveyed->second),
                         target.center, target.sigma_px});
   }
+  for (const int id : unknown) located.result.unknown.push_back(std::to_string(id));
   CameraPoseOptions options;
   options.landmark_sigma_m = state.job.landmarks.sigma_m;
   try {
-    const CameraPose pose = locate_camera(lens, sights, options);
+    const CameraPose pose = locate_by_landmarks(lens, sights, unknown, options);
     take_pose(located, pose, camera);
     for (Finding finding : pose.findings) {
       finding.subject = "picture " + picture.file + ", " + finding.subject;

@@ -138,7 +138,7 @@ json registration_json(const Results& results) {
                             {"before_mdeg", 1e3 * deg_from_rad(loop.before_rad)},
                             {"after_mm", 1e3 * loop.after_m},
                             {"after_mdeg", 1e3 * deg_from_rad(loop.after_rad)}});
-  if (!results.targets.found.empty()) out["found_targets"] = found_targets_json(results.targets.found);
+  if (results.targets.looked_in_scans) out["found_targets"] = found_targets_json(results.targets.found);
   out["control"] = json::array();
   for (const ControlResidual& c : registration.control)
     out["control"].push_back({{"scan", c.scan},

@@ -72,7 +72,7 @@ NLOHMANN_JSON_SERIALIZE_ENUM(TargetKind, {{TargetKind::sphere, "sphere"},
                                           {TargetKind::quarters, "quarters"},
                                           {TargetKind::coded, "coded"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FoundTarget, scan, kind, id, position, sigma_m, size_m, pixels)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TargetsResult, found, pictures, findings)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TargetsResult, looked_in_scans, found, pictures, findings)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CameraResult, camera, scan_from_camera, moved_m, moved_rad, normalised)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RegistrationResult, accepted, scans, pairs, loops, control, control_rms_m, pictures,
                                    cameras, sigma_factor, datum_sigma_m, datum_scan, in_site, findings)

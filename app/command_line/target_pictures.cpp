@@ -82,6 +82,7 @@ int detect(const Arguments& arguments, const CommonOptions& common, Progress& pr
     for_each_image(arguments.images, progress, [&](const std::string& image) {
       const std::vector<DetectedTarget> targets = detect_targets(io::read_grey_picture(image, lens), options, progress);
       if (!common.json && list.empty()) std::printf("image,id,u,v,diameter_px,sigma_px\n");
+      if (targets.empty() && !common.quiet) std::fprintf(stderr, "adit: %s: no target is found in it\n", image.c_str());
       json one{{"image", image}, {"targets", json::array()}};
       for (const DetectedTarget& target : targets) {
         one["targets"].push_back(target_json(target));
@@ -162,7 +163,7 @@ int locate(const Arguments& arguments, const CommonOptions& common, Progress& pr
         else
           sights.push_back({std::to_string(target.id), found->second, target.center, target.sigma_px});
       }
-      const CameraPose pose = locate_camera(*lens, sights, arguments.pose);
+      const CameraPose pose = locate_by_landmarks(*lens, sights, unknown, arguments.pose);
       list.push_back(pose_json(image, pose, unknown));
       if (!common.json) print_pose(image, pose);
       for (const Finding& finding : pose.findings) {
@@ -202,7 +203,7 @@ int calibrate(const Arguments& arguments, const CommonOptions& common, Progress&
       throw Error("the picture has another size than the first one", image, "calibrate with pictures of one size");
     BoardPicture one{image, {}};
     for (const DetectedTarget& target : detect_targets(picture, options, progress))
-      one.sights.push_back({board.at(target.id), target.center});
+      one.sights.push_back({board.at(target.id), target.center, target.id});
     pictures.push_back(std::move(one));
   });
   const CameraCalibration calibration =

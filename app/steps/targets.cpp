@@ -58,7 +58,7 @@ std::string scan_targets_text(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  return "targets 1|" + state.keys.at("import") + pictures_text(state) + scan_targets_text(state);
+  return "targets 2|" + state.keys.at("import") + pictures_text(state) + scan_targets_text(state);
 }
 
 /// A lever arm is of the scanner's own frame.
@@ -75,7 +75,8 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   Progress in_pictures = progress.part(state.job.scan_targets.any() ? 0.2 : 1.0, "finding targets in pictures");
   result.pictures = locate_pictures(state, result.findings, in_pictures);
   Progress in_scans = progress.part(0.8, "looking for targets in the scans");
-  if (state.job.scan_targets.any()) result.found = find_targets(state, result.findings, in_scans);
+  result.looked_in_scans = state.job.scan_targets.any();
+  if (result.looked_in_scans) result.found = find_targets(state, result.findings, in_scans);
   state.results.targets = std::move(result);
   io::write_file_atomically(step_file(state, "targets"), io::step_text(state.results.targets));
   return {"steps/targets.json"};

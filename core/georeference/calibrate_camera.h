@@ -15,6 +15,7 @@ namespace adit {
 struct BoardSight {
   Eigen::Vector3d board = Eigen::Vector3d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  int id = 0;
 };
 
 struct BoardPicture {
@@ -38,7 +39,8 @@ struct CameraCalibration {
 
 /// Focal lengths, principal point, k1, k2, p1, p2, k3 by OpenCV's bundle adjustment (Zhang 2000). Pictures with fewer
 /// than six targets are left out and named. Throws Error for fewer than four good pictures, where no camera fits to 2
-/// pixels, and where the board was held square to the camera in all of them: then focal length and distance are one.
+/// pixels, and where the board was held square to the camera in all of them: then focal length and distance are one;
+/// and what check_board refuses. Targets that are not where the table says are named.
 CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, int width, int height);
 
 }  // namespace adit

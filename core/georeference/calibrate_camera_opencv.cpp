@@ -6,6 +6,7 @@
 
 #include "core/foundation/angle.h"
 #include "core/foundation/error.h"
+#include "core/georeference/board_checks.h"
 #include "core/georeference/calibrate_camera.h"
 
 namespace adit {
@@ -39,6 +40,22 @@ void judge(CameraCalibration& calibration, int width, int height, const std::vec
   }
 }
 
+std::vector<BoardResidual> residuals_of(const std::vector<BoardPicture>& used,
+                                        const std::vector<std::vector<cv::Point3f>>& board,
+                                        const std::vector<cv::Mat>& turns, const std::vector<cv::Mat>& shifts,
+                                        const cv::Mat& matrix, const cv::Mat& bends) {
+  std::vector<BoardResidual> residuals;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    std::vector<cv::Point2f> computed;
+    cv::projectPoints(board[i], turns[i], shifts[i], matrix, bends, computed);
+    for (std::size_t k = 0; k < computed.size(); ++k) {
+      const BoardSight& sight = used[i].sights[k];
+      residuals.push_back({sight.id, sight.pixel - Eigen::Vector2f(computed[k].x, computed[k].y).cast<double>()});
+    }
+  }
+  return residuals;
+}
+
 }  // namespace
 
 CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, int width, int height) {
@@ -56,6 +73,7 @@ CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, in
   if (used.size() < least_pictures)
     throw Error("only " + std::to_string(used.size()) + " pictures show six targets of the board or more", {},
                 "take at least four, better fifteen, with the board tilted to all sides");
+  check_board(used);
   std::vector<std::vector<cv::Point3f>> board;
   std::vector<std::vector<cv::Point2f>> seen;
   for (const BoardPicture& picture : used) {
@@ -64,7 +82,7 @@ CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, in
     for (const BoardSight& sight : picture.sights) {
       const Eigen::Vector3f at = sight.board.cast<float>();
       const Eigen::Vector2f pixel = sight.pixel.cast<float>();
-      board.back().emplace_back(at.x(), at.y(), at.z());
+      board.back().emplace_back(at.x(), at.y(), 0.0F);  // it is flat, wherever its zero is
       seen.back().emplace_back(pixel.x(), pixel.y());
     }
   }
@@ -116,6 +134,8 @@ CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, in
   calibration.sigma_cx = sigmas.at<double>(2);
   calibration.sigma_cy = sigmas.at<double>(3);
   judge(calibration, width, height, used);
+  for (Finding& finding : wrong_on_board(residuals_of(used, board, turns, shifts, matrix, bends)))
+    calibration.findings.push_back(std::move(finding));
   return calibration;
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/foundation/error.h"
 #include "core/foundation/random.h"
+#include "core/geometry/statistics.h"
 #include "core/georeference/posit.h"
 
 namespace adit {
@@ -348,6 +349,18 @@ void judge(const Scene& scene, const Adjusted& adjusted, const Indices& used, Ca
                                "put up a target before or behind the others"});
 }
 
+/// A table in millimetres or feet fits as well as one in metres: only the distances tell.
+void check_distances(const Scene& scene, const Adjusted& adjusted, const Indices& used) {
+  constexpr double least_m = 0.1, most_m = 300.0;
+  std::vector<double> ranges_m;
+  for (const std::size_t i : used) ranges_m.push_back((adjusted.camera_from_site * scene.points[i]).norm());
+  const double usual_m = median(ranges_m);
+  if (usual_m >= least_m && usual_m <= most_m) return;
+  char words[120];
+  std::snprintf(words, sizeof words, "the targets would be %.3g m from the camera", usual_m);
+  throw Error(words, {}, "write the coordinates of their table in metres");
+}
+
 /// Four of many wrong targets fit some pose by chance: most must bear it out, and of five
 /// all but one, of eight all but three.
 void check_contradictions(const std::vector<LandmarkSight>& sights, const Indices& used) {
@@ -386,6 +399,7 @@ CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight
   const std::optional<Adjusted> adjusted = adjusted_without_blunders(scene, consensus.pose, used);
   if (!adjusted) throw Error("the targets determine no pose", {}, "put up more targets, around the camera");
   check_contradictions(sights, used);
+  check_distances(scene, *adjusted, used);
   CameraPose result;
   result.site_from_camera = site_from_camera(scene, adjusted->camera_from_site);
   result.sigma_factor = std::sqrt(adjusted->cost / std::max(1.0, 2.0 * static_cast<double>(used.size()) - 6.0));

@@ -63,7 +63,8 @@ struct CameraPose {
 /// least squares adjustment of the pixels, weighed by the sigmas of target, landmark and lens. What lies off by more
 /// than four of its sigmas is left out, one at a time, and is a decision. Throws Error for fewer than four targets,
 /// targets on one line, where no pose fits to four of them, or too many are left out (half of them, or more than one of
-/// five, three of eight): some pose fits four of many wrong targets by chance.
+/// five, three of eight): some pose fits four of many wrong targets by chance; and where they would be nearer than 0.1
+/// m or farther than 300 m: the table is in other units.
 CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight>& sights,
                          const CameraPoseOptions& options);
 

@@ -27,7 +27,7 @@ double with_least(double sigma_m) {
 void add_spheres(const ScanView& view, double radius_m, std::vector<ScanTarget>& targets, Progress& progress) {
   for (const FoundSphere& sphere : find_spheres(view, radius_m, progress))
     targets.push_back({TargetKind::sphere, 0, sphere.center, with_least(sphere.sigma_m), 2.0 * sphere.free_radius_m,
-                       static_cast<int>(std::sqrt(sphere.pixels * 4.0 / pi))});
+                       2.0 * sphere.free_radius_sigma_m, static_cast<int>(std::sqrt(sphere.pixels * 4.0 / pi))});
 }
 
 /// Angle between both edges on the board, 90 degrees for a right one.
@@ -62,7 +62,7 @@ void add_quarters(const ScanView& view, std::vector<ScanTarget>& targets, Progre
     if (size_m < least_size_m || size_m > most_size_m) continue;
     if (std::abs(crossing_rad(view, *plane, quarters) - 0.5 * pi) > most_askew_rad) continue;
     const PlanePlace place = place_on_plane(view, *plane, quarters.center, quarters.covariance_px2);
-    targets.push_back({TargetKind::quarters, 0, place.at, with_least(place.sigma_m), size_m,
+    targets.push_back({TargetKind::quarters, 0, place.at, with_least(place.sigma_m), size_m, 0.0,
                        static_cast<int>(2.0 * quarters.radius_px)});
   }
 }
@@ -81,7 +81,7 @@ void add_coded(const ScanView& view, const std::vector<TargetCode>& codes, std::
     if (!plane || plane->rms_m > most_rms_m) continue;
     const std::optional<CodedOnPlane> coded = coded_on_plane(view, *plane, found);
     if (!coded || coded->diameter_m < least_size_m || coded->diameter_m > most_size_m) continue;
-    targets.push_back({TargetKind::coded, found.id, coded->center, with_least(coded->sigma_m), coded->diameter_m,
+    targets.push_back({TargetKind::coded, found.id, coded->center, with_least(coded->sigma_m), coded->diameter_m, 0.0,
                        static_cast<int>(found.diameter_px)});
   }
 }

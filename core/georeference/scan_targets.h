@@ -21,7 +21,8 @@ struct ScanTarget {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double sigma_m = 0.0;  ///< of each coordinate
   double size_m = 0.0;   ///< diameter: of the sphere that fits best, of what shows quarters, of the ring of segments
-  int pixels = 0;        ///< across, as dense as the scan sees it
+  double size_sigma_m = 0.0;  ///< of spheres, whose size the points tell
+  int pixels = 0;             ///< across, as dense as the scan sees it
 };
 
 struct ScanTargetOptions {

@@ -148,7 +148,7 @@ std::optional<FoundSphere> sphere_at(const ScanView& view, const Eigen::Vector3d
   if (off_m > std::max(0.05 * radius_m, 3.0 * sigma_m) || off_m > 0.2 * radius_m) return std::nullopt;
   const Eigen::Matrix3d covariance = fit->covariance.topLeftCorner<3, 3>();
   const double worst = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()(2);
-  return FoundSphere{fit->center, std::sqrt(std::max(0.0, worst)), fit->rms_m, loose->radius_m, fit->points};
+  return FoundSphere{fit->center, std::sqrt(std::max(0.0, worst)), fit->rms_m, loose->radius_m, sigma_m, fit->points};
 }
 
 }  // namespace

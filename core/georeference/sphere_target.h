@@ -15,7 +15,8 @@ struct FoundSphere {
   double sigma_m = 0.0;                              ///< of the centre, its worst direction
   double rms_m = 0.0;                                ///< of the points from the sphere
   double free_radius_m = 0.0;                        ///< of the sphere that fits best, were its radius not known
-  int pixels = 0;                                    ///< of the view that lie on it
+  double free_radius_sigma_m = 0.0;
+  int pixels = 0;  ///< of the view that lie on it
 };
 
 /// Spheres that stand free before what is behind them, but for what they stand on. Where the view shows a cap of that

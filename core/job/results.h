@@ -63,6 +63,7 @@ struct LocatedPicture {
 };
 
 struct TargetsResult {
+  bool looked_in_scans = false;
   std::vector<FoundTarget> found;
   std::vector<LocatedPicture> pictures;  ///< in the job's order
   Findings findings;

@@ -21,6 +21,19 @@ std::string with_point_moved(const std::string& table, const std::string& id) {
   return table.substr(0, comma) + east + table.substr(table.find(',', comma));
 }
 
+std::string found_id(const Results& results, TargetKind kind) {
+  for (const FoundTarget& target : results.targets.found)
+    if (target.kind == kind && !target.id.empty()) return target.id;
+  return "none";
+}
+
+bool is_said(const Results& results, const std::string& words) {
+  const Findings findings = all_findings(results);
+  return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+    return finding.severity == Severity::decision && finding.words.find(words) != std::string::npos;
+  });
+}
+
 TEST(TargetJobSlow, TargetsFoundInTheScansOfADemoPlaceThem) {
   const TemporaryFolder folder;
   app::DemoOptions options;
@@ -44,20 +57,21 @@ TEST(TargetJobSlow, TargetsFoundInTheScansOfADemoPlaceThem) {
         << static_cast<int>(kind);
   for (const ControlResidual& residual : results.registration.control) EXPECT_TRUE(residual.used) << residual.id;
 
-  // A coded target that was moved since it was surveyed is named and not used.
-  const auto coded = std::find_if(results.targets.found.begin(), results.targets.found.end(),
-                                  [](const FoundTarget& target) { return target.kind == TargetKind::coded; });
-  ASSERT_NE(coded, results.targets.found.end());
-  const std::string id = coded->id;
-  io::write_file_atomically(folder / "control.csv", with_point_moved(io::read_text_file(folder / "control.csv"), id));
+  // A coded target and a sphere that were moved since they were surveyed are named and not used.
+  const std::string table = io::read_text_file(folder / "control.csv");
+  const std::string code = found_id(results, TargetKind::coded), sphere = found_id(results, TargetKind::sphere);
+  io::write_file_atomically(folder / "control.csv", with_point_moved(with_point_moved(table, code), sphere));
   const auto moved = tests::run(folder.path(), {}, "register");
-  EXPECT_TRUE(needs_a_person(moved->results));
-  const Findings findings = all_findings(moved->results);
-  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
-    return finding.severity == Severity::decision &&
-           finding.words.find("coded target " + id + " lies ") != std::string::npos;
-  }));
+  EXPECT_TRUE(is_said(moved->results, "coded target " + code + " lies "));
+  EXPECT_TRUE(is_said(moved->results, "from control point " + sphere + ", on which none lies"));
   EXPECT_LT(moved->results.truth->worst_position_error_m, 0.004);
+
+  // Spheres of another size than the job says.
+  io::write_file_atomically(folder / "control.csv", table);
+  std::string job = io::read_text_file(folder / "job.json");
+  job.replace(job.find("0.145"), 5, "0.150");
+  io::write_file_atomically(folder / "job.json", job);
+  EXPECT_TRUE(is_said(tests::run(folder.path(), {}, "register")->results, "the job says 150.0"));
 }
 
 }  // namespace

@@ -247,12 +247,52 @@ TEST(CalibrateCamera, TooFewAndSquarePicturesAreRefused) {
   EXPECT_THROW(calibrate_camera(other_board, lens.width, lens.height), Error) << "not the printed one";
 }
 
+TEST(CalibrateCamera, WhatIsWrongWithTheBoardIsNamed) {
+  const CameraLens lens = lens_of();
+  const auto refusal = [&](const std::vector<BoardPicture>& pictures) -> std::string {
+    try {
+      calibrate_camera(pictures, lens.width, lens.height);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const auto pictures = board_pictures(lens, 12, 0.7, 0.05);
+  auto twice = pictures;
+  twice[7].sights = twice[2].sights;
+  EXPECT_NE(refusal(twice).find("shows the same as"), std::string::npos) << refusal(twice);
+  auto millimetres = pictures, high = pictures, bent = pictures, moved = pictures;
+  for (BoardPicture& picture : millimetres)
+    for (BoardSight& sight : picture.sights) sight.board *= 1000.0;
+  EXPECT_NE(refusal(millimetres).find("in metres"), std::string::npos);
+  for (BoardPicture& picture : bent) picture.sights[3].board.z() += 0.01;
+  EXPECT_NE(refusal(bent).find("different elevations"), std::string::npos);
+  for (BoardPicture& picture : high)
+    for (BoardSight& sight : picture.sights) sight.board.z() += 5.0;
+  EXPECT_NEAR(calibrate_camera(high, lens.width, lens.height).lens.fx,
+              calibrate_camera(pictures, lens.width, lens.height).lens.fx, 1e-6);
+  for (BoardPicture& picture : moved)
+    for (std::size_t k = 0; k < picture.sights.size(); ++k) {
+      picture.sights[k].id = static_cast<int>(k) + 1;
+      if (k == 8) picture.sights[k].board.x() += 0.003;
+    }
+  const Findings findings = calibrate_camera(moved, lens.width, lens.height).findings;
+  EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                          [](const Finding& finding) { return finding.subject.rfind("target ", 0) == 0; }),
+            1);
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(),
+                          [](const Finding& finding) { return finding.subject == "target 9"; }));
+}
+
 TEST(CameraPose, TooLittleIsRefusedAndDoubtIsSaid) {
   const Scene scene(8);
   const auto first = [&](std::size_t count) {
     return std::vector<LandmarkSight>(scene.sights.begin(), scene.sights.begin() + static_cast<std::ptrdiff_t>(count));
   };
   EXPECT_THROW(locate_camera(scene.lens, first(3), {}), Error);
+  auto millimetres = scene.sights;
+  for (LandmarkSight& sight : millimetres) sight.site *= 1000.0;
+  EXPECT_THROW(locate_camera(scene.lens, millimetres, {}), Error);
   const CameraPose four = locate_camera(scene.lens, first(4), {});
   ASSERT_FALSE(four.findings.empty());
   EXPECT_NE(four.findings[0].words.find("hardly anything checks"), std::string::npos);

@@ -16,15 +16,15 @@ TEST(UncertaintyOfVolumes, AnUnseenFloorIsOffAsTheFloorIsNotAsTheWalls) {
   // underbreak there is missing whole, and the overbreak is not touched.
   const DesignTunnel design = tests::sample_design(tests::arch_profile());
   const auto on_floor = [](const ProfilePoint& at) { return at.normal.y() < -0.5; };
-  DeviationMap map =
-      tests::map_of(design, [&](double, const ProfilePoint& at) { return on_floor(at) ? -0.1 : 0.2; });
+  DeviationMap map = tests::map_of(design, [&](double, const ProfilePoint& at) { return on_floor(at) ? -0.1 : 0.2; });
   const DesignLine line{"line", 0.0};
   Progress progress;
   const Volume whole = compute_volume(map, design, line, 20.0, 28.0, 1.0, {}, {}, progress);
   const ProfileStretch stretch(design.profile_at(24.0));
   for (std::size_t r = map.rows / 3; r < 2 * map.rows / 3; ++r)
     for (std::size_t c = 0; c < map.columns; ++c)
-      if (on_floor(stretch.at((static_cast<double>(c) + 0.5) * map.step_q_m))) map.cells[r * map.columns + c] = MapCell{};
+      if (on_floor(stretch.at((static_cast<double>(c) + 0.5) * map.step_q_m)))
+        map.cells[r * map.columns + c] = MapCell{};
   const Volume part = compute_volume(map, design, line, 20.0, 28.0, 1.0, {}, {}, progress);
   const double missing_m3 = whole.slices.underbreak_m3 - part.slices.underbreak_m3;
   EXPECT_NEAR(missing_m3, whole.slices.underbreak_m3 / 3.0, 0.1 * whole.slices.underbreak_m3);
