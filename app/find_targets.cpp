@@ -103,6 +103,13 @@ void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarge
   }
   if (match.local_from_scan) contradicting += report_moved(subject, unnamed, match, control, findings);
   nameless -= std::min(nameless, contradicting);
+  for (const ScanTarget& target : seen)
+    if (target.kind == TargetKind::coded && coded_point(control, target.code_id).empty()) {
+      findings.push_back({Severity::warning, subject,
+                          "coded target " + std::to_string(target.code_id) + " stands in no row of the control file",
+                          "survey it, or correct its id there"});
+      nameless -= std::min<std::size_t>(nameless, 1);
+    }
   if (seen.empty()) {
     findings.push_back({Severity::warning, subject, "none of the targets the job asks for is found in it",
                         "scan more densely, or nearer to them"});
@@ -111,12 +118,34 @@ void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarge
         {Severity::decision, subject,
          "its " + std::to_string(seen.size()) + " targets fit the control points in more than one way: none is used",
          "give the scan a pose, or name them in targets.csv"});
+  } else if (nameless > 0 && !match.local_from_scan) {
+    findings.push_back({Severity::warning, subject,
+                        std::to_string(nameless) + " of " + std::to_string(seen.size()) +
+                            " targets found in it are not used: no three control points" +
+                            (guess ? " about its pose" : "") + " have their distances",
+                        "three or more must be seen; check the control file and the scan's pose in job.json"});
   } else if (nameless > 0) {
     findings.push_back({Severity::warning, subject,
                         std::to_string(nameless) + " of " + std::to_string(seen.size()) +
                             " targets found in it lie on no control point and are not used",
                         "compare them with the control file: results.json lists them"});
   }
+}
+
+/// Kinds that the job asks for and no scan shows.
+void report_missing_kinds(const JobScanTargets& wanted, const std::vector<FoundTarget>& found, Findings& findings) {
+  const auto none = [&](TargetKind kind) {
+    return std::none_of(found.begin(), found.end(), [&](const FoundTarget& target) { return target.kind == kind; });
+  };
+  const auto report = [&](const std::string& what) {
+    findings.push_back({Severity::warning, "targets", what + " is found in any scan",
+                        "scan more densely or nearer to them, or do not ask for them in job.json"});
+  };
+  char sphere[60];
+  std::snprintf(sphere, sizeof sphere, "no sphere of %.0f mm", 1e3 * wanted.sphere_diameter_m);
+  if (wanted.sphere_diameter_m > 0.0 && none(TargetKind::sphere)) report(sphere);
+  if (wanted.quarters && none(TargetKind::quarters)) report("no board of quarters");
+  if (wanted.coded && none(TargetKind::coded)) report("no coded target");
 }
 
 /// The diameter that the spheres themselves show, over that of the job. A wrong one moves every centre along its line
@@ -160,11 +189,17 @@ std::vector<FoundTarget> find_targets(const JobState& state, Findings& findings,
                           "export it in the scanner's own frame"});
       continue;
     }
+    const JobScanTargets& wanted = state.job.scan_targets;
+    if ((wanted.quarters || wanted.coded) && !state.stores[i]->header().has_intensity)
+      findings.push_back({Severity::warning, "scan " + state.job.scans[i].name,
+                          "boards and coded targets cannot be found in it: its points have no intensity",
+                          "export it with intensity"});
     std::vector<ScanTarget> seen = find_scan_targets(*state.stores[i], options_of(state), part);
     sizes.add(seen);
     name_targets(state, i, std::move(seen), found, findings, part);
   }
   sizes.report(state.job.scan_targets.sphere_diameter_m, findings);
+  if (!found.empty()) report_missing_kinds(state.job.scan_targets, found, findings);
   return found;
 }
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 
+#include "app/landmarks.h"
 #include "app/scan_places.h"
 #include "core/foundation/error.h"
 #include "core/foundation/options.h"
@@ -57,6 +59,42 @@ void check_not_swapped(const JobState& state, const std::vector<Eigen::Vector3d>
   std::snprintf(words, sizeof words, " lie far from the axis, the first %.0f m",
                 distance_to_axis_m(*state.alignment, places.front().head<2>()));
   throw Error(what + words, where, "east and north seem to be swapped, here or in " + state.job.alignment);
+}
+
+/// Landmarks of another grid, or with a lost digit, would take the whole survey with them.
+void check_landmarks(const JobState& state) {
+  constexpr double farthest_m = 1000.0;
+  std::vector<Eigen::Vector3d> places, others;
+  for (const auto& [id, place] : state.landmarks) places.push_back(place);
+  for (const ControlPoint& point : state.control) others.push_back(point.position);
+  for (const JobScan& scan : state.job.scans)
+    if (scan.position) others.push_back(*scan.position);
+  const std::string file = (state.folder / state.job.landmarks.file).string();
+  if (state.alignment) {
+    for (const auto& [id, place] : state.landmarks) check_near_axis(state, place, "target " + std::to_string(id), file);
+    check_not_swapped(state, places, "the targets", file);
+  }
+  if (places.empty() || others.empty()) return;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& place : places)
+    for (const Eigen::Vector3d& other : others) nearest_m = std::min(nearest_m, (place - other).norm());
+  if (nearest_m <= farthest_m) return;
+  char words[100];
+  std::snprintf(words, sizeof words, "no target lies within %.1f km of the job's poses and control",
+                nearest_m / 1000.0);
+  throw Error(words, file, "check whether both are of one coordinate system");
+}
+
+/// "7" and "007" are one coded target.
+void check_coded_control(const JobState& state) {
+  if (!state.job.scan_targets.coded) return;
+  std::map<int, std::string> named;
+  for (const ControlPoint& point : state.control)
+    if (const auto id = target_id(point.id))
+      if (const auto [first, is_new] = named.emplace(*id, point.id); !is_new)
+        throw Error(
+            "control points " + first->second + " and " + point.id + " are both coded target " + std::to_string(*id),
+            (state.folder / state.job.control).string(), "keep one of them");
 }
 
 void check_places(const JobState& state) {
@@ -176,6 +214,8 @@ void check_design(const JobState& state) {
       throw Error("the line \"" + job.lines[i].name + "\" grows with every round, and there are no \"rounds\"",
                   job_key(state, "lines[" + std::to_string(i) + "].look_out_per_m"), "list the rounds");
   check_tolerance_names(state);
+  check_coded_control(state);
+  check_landmarks(state);
   if (!state.alignment) return;
   if (job.chainage) check_range(state, "chainage", job.chainage->from_m, job.chainage->to_m);
   for (std::size_t i = 0; i < job.zones.size(); ++i)

@@ -26,7 +26,10 @@ DetectOptions detect_options(const JobState& state, const CameraLens& lens) {
 }
 
 void take_pose(LocatedPicture& located, const CameraPose& pose, std::size_t camera) {
-  located.sight = {located.result.scan, located.result.picture, camera, pose.site_from_camera, pose.covariance};
+  // The focal length is wrong in all pictures of a camera alike: it counts with the lever arm (context of register).
+  located.sight = {located.result.scan, located.result.picture, camera, pose.site_from_camera,
+                   pose.covariance - pose.by_focal_length * pose.by_focal_length.transpose()};
+  located.by_focal_length_m = pose.by_focal_length.head<3>().norm();
   located.result.located = true;
   located.result.rms_px = pose.rms_px;
   for (const LandmarkResidual& landmark : pose.landmarks)

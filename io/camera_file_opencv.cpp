@@ -74,6 +74,9 @@ CameraLens lens_of(const cv::FileStorage& storage, const std::string& file) {
   lens.height = whole_number(storage, "image_height", file);
   const cv::Mat matrix = numbers(storage, "camera_matrix", file);
   if (matrix.rows != 3 || matrix.cols != 3) fail("camera_matrix is not 3 x 3", file);
+  if (matrix.at<double>(1, 0) != 0.0 || matrix.at<double>(2, 0) != 0.0 || matrix.at<double>(2, 1) != 0.0 ||
+      matrix.at<double>(2, 2) != 1.0)
+    fail("camera_matrix is no camera's: its last row is 0, 0, 1, and nothing stands below its diagonal", file);
   lens.fx = matrix.at<double>(0, 0);
   lens.fy = matrix.at<double>(1, 1);
   lens.cx = matrix.at<double>(0, 2);
@@ -89,6 +92,12 @@ CameraLens lens_of(const cv::FileStorage& storage, const std::string& file) {
   }
   const std::array<double*, 8> places{&lens.k1, &lens.k2, &lens.p1, &lens.p2, &lens.k3, &lens.k4, &lens.k5, &lens.k6};
   for (int k = 0; k < std::min(8, bends.cols); ++k) *places[static_cast<std::size_t>(k)] = bends.at<double>(0, k);
+  if (const cv::FileNode sigma = storage["focal_sigma_px"]; !sigma.empty()) {
+    if (!sigma.isReal() && !sigma.isInt()) fail("the key focal_sigma_px is no number", file);
+    lens.focal_sigma = static_cast<double>(sigma) / lens.focal_px();
+    if (!(lens.focal_sigma >= 0.0 && lens.focal_sigma < 0.1))
+      fail("focal_sigma_px is not from 0 to a tenth of the focal length", file);
+  }
   try {
     check_lens(lens);
   } catch (const Error& error) {
@@ -136,6 +145,7 @@ std::string camera_text(const CameraLens& lens, const std::string& note) {
   text += "image_width: " + std::to_string(lens.width) + "\nimage_height: " + std::to_string(lens.height) + "\n";
   add(text, "camera_matrix", matrix, 3);
   add(text, "distortion_coefficients", std::span(bends).first(rational ? 8 : 5), 1);
+  text += "focal_sigma_px: " + digits(lens.focal_sigma * lens.focal_px()) + "\n";
   return text;
 }
 

@@ -67,7 +67,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlResidual, scan, id, residual_m, used, 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PictureResult, scan, picture, camera, located, used, local_from_camera, sigma_m,
                                    sigma_rad, residual_m, turned_rad, normalised, targets, rejected, unknown, rms_px)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CameraSight, scan, picture, camera, local_from_camera, covariance)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LocatedPicture, result, sight)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LocatedPicture, result, sight, by_focal_length_m)
 NLOHMANN_JSON_SERIALIZE_ENUM(TargetKind, {{TargetKind::sphere, "sphere"},
                                           {TargetKind::quarters, "quarters"},
                                           {TargetKind::coded, "coded"}})

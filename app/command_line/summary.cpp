@@ -41,6 +41,17 @@ void add_registration(std::string& text, const Results& results) {
           1e3 * pair.median_distance_m);
     text += pair.used ? "\n" : " (not used: " + pair.why_not + ")\n";
   }
+  if (!results.targets.found.empty()) {
+    const auto count = [&](TargetKind kind) {
+      return std::count_if(results.targets.found.begin(), results.targets.found.end(),
+                           [&](const FoundTarget& target) { return target.kind == kind; });
+    };
+    const auto named = std::count_if(results.targets.found.begin(), results.targets.found.end(),
+                                     [](const FoundTarget& target) { return !target.id.empty(); });
+    add(text,
+        "  found in the scans: %td spheres, %td boards of quarters, %td coded targets; %td lie on control points\n",
+        count(TargetKind::sphere), count(TargetKind::quarters), count(TargetKind::coded), named);
+  }
   const auto used = std::count_if(registration.control.begin(), registration.control.end(),
                                   [](const ControlResidual& residual) { return residual.used; });
   if (!registration.control.empty())

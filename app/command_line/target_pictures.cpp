@@ -154,6 +154,7 @@ int locate(const Arguments& arguments, const CommonOptions& common, Progress& pr
   };
   try {
     for_each_image(arguments.images, progress, [&](const std::string& image) {
+      list.push_back({{"image", image}, {"pose", nullptr}});  // until it is known
       std::vector<LandmarkSight> sights;
       std::vector<int> unknown;
       for (const DetectedTarget& target : detect_targets(io::read_grey_picture(image, lens), options, progress)) {
@@ -164,7 +165,7 @@ int locate(const Arguments& arguments, const CommonOptions& common, Progress& pr
           sights.push_back({std::to_string(target.id), found->second, target.center, target.sigma_px});
       }
       const CameraPose pose = locate_by_landmarks(*lens, sights, unknown, arguments.pose);
-      list.push_back(pose_json(image, pose, unknown));
+      list.back() = pose_json(image, pose, unknown);
       if (!common.json) print_pose(image, pose);
       for (const Finding& finding : pose.findings) {
         needs_a_person = needs_a_person || finding.severity == Severity::decision;
@@ -252,8 +253,10 @@ int calibrate(const Arguments& arguments, const CommonOptions& common, Progress&
 Action declare_target_detect(CLI::App& command) {
   auto arguments = std::make_shared<Arguments>();
   command.add_option("IMAGE", arguments->images, "pictures: PNG, JPEG, TIFF, BMP, PGM")->required()->check(some_name);
-  command.add_option("--ids", arguments->ids,
-                     "the ids that hang there: then partly hidden ones are read, too, and no others are taken");
+  command
+      .add_option("--ids", arguments->ids,
+                  "the ids that hang there: then partly hidden ones are read, too, and no others are taken")
+      ->check(some_name);
   command.add_option("--camera", arguments->camera, "the camera's calibration (OpenCV's YAML)")->check(some_name);
   return [arguments](const CommonOptions& common, Progress& progress) { return detect(*arguments, common, progress); };
 }
@@ -267,7 +270,7 @@ Action declare_target_locate(CLI::App& command) {
   command.add_option("--database", arguments->database, "surveyed targets: id,east,north,elevation")
       ->required()
       ->check(some_name);
-  command.add_option("--ids", arguments->ids, "all ids that hang there, in the database or not");
+  command.add_option("--ids", arguments->ids, "all ids that hang there, in the database or not")->check(some_name);
   command.add_option("--landmark-sigma", arguments->pose.landmark_sigma_m, "of each surveyed coordinate [m] (0.003)")
       ->check(number_between(0.0, 1.0));
   return [arguments](const CommonOptions& common, Progress& progress) { return locate(*arguments, common, progress); };

@@ -22,7 +22,7 @@ bool wanted(const JobState& state) {
 }
 
 std::string depends_on(const JobState& state) {
-  std::string text = "register 9|" + state.keys.at("import");
+  std::string text = "register 10|" + state.keys.at("import");
   for (const JobScan& scan : state.job.scans) {
     if (!scan.position) continue;
     for (const double value : {scan.position->x(), scan.position->y(), scan.position->z(), scan.angles.yaw_rad,
@@ -47,11 +47,16 @@ ScanToPlace scan_to_place(const JobState& state, std::size_t index) {
   return scan;
 }
 
-/// Those of the file, and those found in the scans that are control points. Coordinates of the scans' files.
+/// Those of the file, and those found in the scans that are other control points. Coordinates of the scans' files.
 std::vector<TargetObservation> targets_of(const JobState& state) {
   std::vector<TargetObservation> targets = state.targets;
+  const auto named = [&](const FoundTarget& found) {
+    return std::any_of(state.targets.begin(), state.targets.end(), [&](const TargetObservation& target) {
+      return target.scan == found.scan && target.id == found.id;
+    });
+  };
   for (const FoundTarget& found : state.results.targets.found)
-    if (!found.id.empty()) targets.push_back({found.scan, found.id, found.position, found.sigma_m});
+    if (!found.id.empty() && !named(found)) targets.push_back({found.scan, found.id, found.position, found.sigma_m});
   return targets;
 }
 
@@ -63,11 +68,18 @@ RegistrationContext context_of(const JobState& state) {
     context.control.push_back(point);
   }
   context.targets = targets_of(state);
+  // What a wrong focal length does to all pictures of a camera looks like a lever arm that is off.
+  std::vector<double> farthest_m(state.job.cameras.size(), 0.0);
   for (const JobCamera& camera : state.job.cameras)
     context.cameras.push_back(
         {camera.name, lever_arm(camera.position, camera.angles), camera.sigma_m, camera.sigma_rad});
-  for (const LocatedPicture& picture : state.results.targets.pictures)
-    if (picture.result.located) context.pictures.push_back(picture.sight);
+  for (const LocatedPicture& picture : state.results.targets.pictures) {
+    if (!picture.result.located) continue;
+    context.pictures.push_back(picture.sight);
+    farthest_m[picture.sight.camera] = std::max(farthest_m[picture.sight.camera], picture.by_focal_length_m);
+  }
+  for (std::size_t i = 0; i < context.cameras.size(); ++i)
+    context.cameras[i].sigma_m = std::hypot(context.cameras[i].sigma_m, farthest_m[i]);
   context.clock_s = [] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
@@ -131,6 +143,8 @@ LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
   result = register_scans(scans, context_of(state), state.job.options.registration, progress);
   result.pictures = with_adjusted(state.results.targets.pictures, result.pictures);
   stand_in_site_or_alone(state);
+  for (const Finding& finding : state.results.targets.findings)
+    if (finding.severity == Severity::decision) result.accepted = false;
   for (Finding& finding : scans_beside_axis(state)) {
     state.results.registration.findings.push_back(std::move(finding));
     state.results.registration.accepted = false;

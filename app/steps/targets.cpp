@@ -1,5 +1,7 @@
 // Targets: in the pictures of the job's cameras, and in the scans themselves.
 
+#include <map>
+
 #include "app/find_targets.h"
 #include "app/locate_pictures.h"
 #include "app/placed_tiles.h"
@@ -69,7 +71,18 @@ void check_pictures_have_scanners(const JobState& state) {
                   "scan " + state.job.scans[i].name, "export the scan in the scanner's own frame");
 }
 
+/// A copy under another name would count as a second observation.
+void check_pictures_differ(const JobState& state) {
+  std::map<std::string, std::string> named;
+  for (const JobScan& scan : state.job.scans)
+    for (const JobPicture& picture : scan.pictures)
+      if (const auto [first, is_new] = named.emplace(state.input_sha256.at(picture.file), picture.file); !is_new)
+        throw Error("it is a copy of " + first->second, (state.folder / picture.file).string(),
+                    "name each picture once, with the scan it was taken during");
+}
+
 LeftFiles run(JobState& state, const StepContext&, Progress& progress) {
+  check_pictures_differ(state);
   check_pictures_have_scanners(state);
   TargetsResult result;
   Progress in_pictures = progress.part(state.job.scan_targets.any() ? 0.2 : 1.0, "finding targets in pictures");

@@ -16,9 +16,8 @@ namespace {
 
 bool same_pixels(const BoardPicture& a, const BoardPicture& b) {
   return a.sights.size() == b.sights.size() &&
-         std::equal(a.sights.begin(), a.sights.end(), b.sights.begin(), [](const BoardSight& p, const BoardSight& q) {
-           return p.board == q.board && p.pixel == q.pixel;
-         });
+         std::equal(a.sights.begin(), a.sights.end(), b.sights.begin(),
+                    [](const BoardSight& p, const BoardSight& q) { return p.board == q.board && p.pixel == q.pixel; });
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t least_targets = 6, least_pictures = 4;
 
 void judge(CameraCalibration& calibration, int width, int height, const std::vector<BoardPicture>& used) {
-  constexpr double poor_rms_px = 0.5, poor_focal = 0.005, least_filled = 0.5;
+  constexpr double poor_rms_px = 0.5, poor_focal = 0.005, least_filled = 0.5, square_pixels = 0.001;
   char words[200];
   if (calibration.rms_px > poor_rms_px) {
     std::snprintf(words, sizeof words, "the pictures fit to %.2f pixels (rms) only", calibration.rms_px);
@@ -28,6 +28,15 @@ void judge(CameraCalibration& calibration, int width, int height, const std::vec
                   100.0 * calibration.sigma_fx / calibration.lens.fx);
     calibration.findings.push_back(
         {Severity::decision, "calibration", words, "take more pictures, the board tilted to all sides"});
+  }
+  const double apart = std::abs(calibration.lens.fx - calibration.lens.fy);
+  if (apart >
+      std::max(square_pixels * calibration.lens.fx, 4.0 * std::hypot(calibration.sigma_fx, calibration.sigma_fy))) {
+    std::snprintf(words, sizeof words,
+                  "both focal lengths differ by %.2f %%: pixels are square, so the print is longer one way",
+                  100.0 * apart / calibration.lens.fx);
+    calibration.findings.push_back(
+        {Severity::decision, "calibration", words, "measure the print both ways, and scale the columns of its table"});
   }
   Eigen::AlignedBox2d box;
   for (const BoardPicture& picture : used)
@@ -131,6 +140,9 @@ CameraCalibration calibrate_camera(const std::vector<BoardPicture>& pictures, in
   check_lens(lens);
   calibration.sigma_fx = sigmas.at<double>(0);
   calibration.sigma_fy = sigmas.at<double>(1);
+  constexpr double least_focal_sigma = 5e-5;  // warmth, and what the model of the lens leaves
+  lens.focal_sigma =
+      std::max(least_focal_sigma, std::max(calibration.sigma_fx, calibration.sigma_fy) / lens.focal_px());
   calibration.sigma_cx = sigmas.at<double>(2);
   calibration.sigma_cy = sigmas.at<double>(3);
   judge(calibration, width, height, used);

@@ -17,6 +17,8 @@ struct CameraLens {
   double cx = 0.0, cy = 0.0;  ///< principal point
   double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0, k4 = 0.0, k5 = 0.0, k6 = 0.0;
 
+  double focal_sigma = 0.0005;  ///< how well the focal lengths are known, over themselves; by files that do not say it
+
   double focal_px() const { return 0.5 * (fx + fy); }
 };
 

@@ -262,8 +262,22 @@ Pose site_from_camera(const Scene& scene, const Pose& camera_from_middle) {
   return camera_from_site.inverse();
 }
 
+/// What an error of the focal length adds: it moves the camera along its axis by as much of the distances, and hardly
+/// shows in the residuals (a considered parameter, Schmidt 1966).
+Vector6d by_focal_length(const Scene& scene, const Adjusted& adjusted, const Indices& used) {
+  Vector6d moved = Vector6d::Zero();
+  for (const std::size_t i : used) {
+    const Eigen::Vector3d turned = adjusted.camera_from_site.linear() * scene.points[i],
+                          at = turned + adjusted.camera_from_site.translation();
+    const Eigen::Vector2d by_log_focal = pixel_of(scene.lens, at) - Eigen::Vector2d(scene.lens.cx, scene.lens.cy);
+    moved +=
+        sight_derivative(scene.lens, turned, at).transpose() * by_log_focal / std::pow(scene.sigma_px(i, at.z()), 2);
+  }
+  return scene.lens.focal_sigma * adjusted.normal.ldlt().solve(moved);
+}
+
 /// From turns and shifts of the camera frame to those of the camera in the site.
-Matrix6d covariance_in_site(const Adjusted& adjusted, double factor) {
+Matrix6d to_site(const Adjusted& adjusted) {
   const Eigen::Matrix3d back = adjusted.camera_from_site.linear().transpose();
   const Eigen::Vector3d t = adjusted.camera_from_site.translation();
   Eigen::Matrix3d cross;
@@ -272,7 +286,7 @@ Matrix6d covariance_in_site(const Adjusted& adjusted, double factor) {
   change.topLeftCorner<3, 3>() = -back * cross;  // of the position -R^T t
   change.topRightCorner<3, 3>() = -back;
   change.bottomLeftCorner<3, 3>() = -back;
-  return factor * factor * change * adjusted.normal.inverse() * change.transpose();
+  return change;
 }
 
 /// Whether a target may be seen at all. Camera frame.
@@ -318,8 +332,11 @@ void name_left_out(const Scene& scene, const Adjusted& adjusted, const std::vect
                     beside_m(scene, adjusted.camera_from_site, i), off_px(scene, adjusted.camera_from_site, i));
     else
       std::snprintf(words, sizeof words, "is not used: its surveyed place lies behind the camera");
-    result.findings.push_back({Severity::decision, "target " + sights[i].id, words,
-                               "survey it again: it may have moved, or its id may be wrong in the database"});
+    result.findings.push_back(
+        {Severity::decision, "target " + sights[i].id, words,
+         sights.size() - used.size() > 1
+             ? "check that the camera file is of this camera, zoom and focus; then survey these targets again"
+             : "survey it again: it may have moved, or its id may be wrong in the database"});
   }
 }
 
@@ -361,11 +378,12 @@ void check_distances(const Scene& scene, const Adjusted& adjusted, const Indices
   throw Error(words, {}, "write the coordinates of their table in metres");
 }
 
-/// Four of many wrong targets fit some pose by chance: most must bear it out, and of five
-/// all but one, of eight all but three.
+/// Four of many wrong targets fit some pose by chance, and a wrong focal length or zoom leaves the outer ones out: of
+/// five one may be wrong, of eight three, of more three of ten.
 void check_contradictions(const std::vector<LandmarkSight>& sights, const Indices& used) {
   const std::size_t left_out = sights.size() - used.size();
-  if (left_out < used.size() && left_out <= 2 * (used.size() - least_targets) + 1) return;
+  const std::size_t few = std::min<std::size_t>(3, 2 * (used.size() - least_targets) + 1);
+  if (left_out < used.size() && left_out <= std::max(few, 3 * sights.size() / 10)) return;
   std::string names;
   for (const std::size_t i : used) names += (names.empty() ? "" : ", ") + sights[i].id;
   throw Error(
@@ -393,8 +411,9 @@ CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight
   Consensus consensus = consensus_of(scene);
   if (consensus.agreeing.size() < least_targets)
     throw Error(
-        "no pose fits to four of the " + std::to_string(sights.size()) + " targets", {},
-        "check their coordinates, that they do not hang on one line, and that the camera file is of this camera");
+        sights.size() == least_targets ? "no pose fits to the four targets"
+                                       : "no pose fits to four of the " + std::to_string(sights.size()) + " targets",
+        {}, "check their coordinates, that they do not hang on one line, and that the camera file is of this camera");
   Indices used = consensus.agreeing;
   const std::optional<Adjusted> adjusted = adjusted_without_blunders(scene, consensus.pose, used);
   if (!adjusted) throw Error("the targets determine no pose", {}, "put up more targets, around the camera");
@@ -403,7 +422,11 @@ CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight
   CameraPose result;
   result.site_from_camera = site_from_camera(scene, adjusted->camera_from_site);
   result.sigma_factor = std::sqrt(adjusted->cost / std::max(1.0, 2.0 * static_cast<double>(used.size()) - 6.0));
-  result.covariance = covariance_in_site(*adjusted, std::max(1.0, result.sigma_factor));
+  const double factor = std::max(1.0, result.sigma_factor);
+  const Matrix6d change = to_site(*adjusted);
+  result.by_focal_length = change * by_focal_length(scene, *adjusted, used);
+  result.covariance = factor * factor * change * adjusted->normal.inverse() * change.transpose() +
+                      result.by_focal_length * result.by_focal_length.transpose();
   result.flat = flatness(chosen(scene.points, used)) < flat_points;
   add_residuals(scene, *adjusted, sights, used, result);
   const auto raw = posit(chosen(scene.points, used), chosen(scene.places, used));

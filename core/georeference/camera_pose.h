@@ -49,7 +49,8 @@ struct PositSummary {
 struct CameraPose {
   Pose site_from_camera = Pose::Identity();
   Matrix6d covariance = Matrix6d::Zero();  ///< position in the site [m], then small turns about the site's axes [rad]
-  double rms_px = 0.0;                     ///< of those used
+  Vector6d by_focal_length = Vector6d::Zero();  ///< what one sigma of the focal length moves; the covariance holds it
+  double rms_px = 0.0;                          ///< of those used
   double sigma_factor = 1.0;  ///< of the residuals over what their sigmas say; sigmas are not made smaller by it
   bool flat = false;          ///< the targets lie in one plane
   PositSummary posit;
@@ -61,10 +62,10 @@ struct CameraPose {
 
 /// Consensus: poses of subsets of four (all of them, or 400 drawn ones) by POSIT; the one that most targets fit, then a
 /// least squares adjustment of the pixels, weighed by the sigmas of target, landmark and lens. What lies off by more
-/// than four of its sigmas is left out, one at a time, and is a decision. Throws Error for fewer than four targets,
-/// targets on one line, where no pose fits to four of them, or too many are left out (half of them, or more than one of
-/// five, three of eight): some pose fits four of many wrong targets by chance; and where they would be nearer than 0.1
-/// m or farther than 300 m: the table is in other units.
+/// than four of its sigmas is left out, one at a time, and is a decision. The covariance holds the lens's focal_sigma.
+/// Throws Error for fewer than four targets, targets on one line, where no pose fits to four of them, or too many are
+/// left out (more than one of five, three of eight, three of ten of more): some pose fits four of many wrong targets by
+/// chance; and where they would be nearer than 0.1 m or farther than 300 m: the table is in other units.
 CameraPose locate_camera(const CameraLens& lens, const std::vector<LandmarkSight>& sights,
                          const CameraPoseOptions& options);
 

@@ -22,7 +22,12 @@ struct Matching {
     return most_sigmas * std::hypot(seen[target].sigma_m, options.control_sigma_m);
   }
   bool may_be(std::size_t target, std::size_t point) const {
-    return seen[target].id.empty() || seen[target].id == control[point].id;
+    if (!seen[target].id.empty() && seen[target].id != control[point].id) return false;
+    if (!guess) return true;
+    // No pose that agrees with the guess brings it farther.
+    const double reach_m =
+        near_m(target) + most_sigmas * (options.guess_sigma_m + seen[target].in_scan.norm() * options.guess_sigma_rad);
+    return (*guess * seen[target].in_scan - control[point].position).norm() <= reach_m;
   }
   bool keeps_distance(std::size_t i, std::size_t j, std::size_t a, std::size_t b) const {
     const double seen_m = (seen[i].in_scan - seen[j].in_scan).norm();
@@ -30,8 +35,10 @@ struct Matching {
     return std::abs(seen_m - surveyed_m) <= std::hypot(near_m(i), near_m(j));
   }
   bool agrees_with_guess(const Pose& pose) const {
-    // A scanner stands upright: upside down, it is control points in a mirror (east and north exchanged) that fit.
-    if (!guess) return pose.linear()(2, 2) > 0.0;
+    // A scanner stands upright: lying or upside down, it is control points in a mirror (east and north exchanged, or a
+    // sign) that fit.
+    constexpr double least_upright = 0.94;  // cosine of 20 degrees
+    if (!guess) return pose.linear()(2, 2) > least_upright;
     return distance_between_m(pose, *guess) <= most_sigmas * options.guess_sigma_m &&
            rotation_between_rad(pose, *guess) <= most_sigmas * options.guess_sigma_rad;
   }

@@ -179,7 +179,7 @@ double view_focal_px(const TileSource& scan) {
       const double height = 0.5 * (static_cast<double>(p.z()) / range + 1.0);
       const int row = std::min(rows - 1, static_cast<int>(height * rows));
       const int column = std::min(columns - 1, static_cast<int>(azimuth / (2.0 * pi) * columns));
-      points[static_cast<std::size_t>(row * columns + column)] +=
+      points[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] +=
           static_cast<double>(whole) / static_cast<double>(some.size());
     }
   }

@@ -59,7 +59,8 @@ struct FoundTarget {
 /// What one picture says, before the adjustment. Local frame.
 struct LocatedPicture {
   PictureResult result;
-  CameraSight sight;  ///< where result.located
+  CameraSight sight;               ///< where result.located
+  double by_focal_length_m = 0.0;  ///< what one sigma of the focal length moves the camera; not in the sight
 };
 
 struct TargetsResult {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 
 namespace adit {
 namespace {
@@ -90,13 +92,14 @@ std::vector<Trial> trials(const PoseGraph& graph, const Adjustment& adjustment, 
   return tried;
 }
 
-/// How far a suspect lies from where the adjustment without it puts it.
-double off_from(const Trial& trial, const PoseGraph& graph) {
-  double off_m = 0.0;
+/// How far a suspect lies from where the adjustment without it puts it, and how it is turned there.
+std::pair<double, double> off_from(const Trial& trial, const PoseGraph& graph) {
+  double off_m = 0.0, turned_rad = 0.0;
   for (const std::size_t k : trial.suspect.pairs) {
     const GraphPair& pair = graph.pairs[k];
     const Pose others = trial.local_from_scan[pair.target].inverse() * trial.local_from_scan[pair.source];
     off_m = std::max(off_m, distance_between_m(others, pair.target_from_source));
+    turned_rad = std::max(turned_rad, rotation_between_rad(others, pair.target_from_source));
   }
   for (const std::size_t k : trial.suspect.control) {
     const GraphControl& c = graph.control[k];
@@ -106,8 +109,9 @@ double off_from(const Trial& trial, const PoseGraph& graph) {
     const GraphSight& sight = graph.sights[k];
     const Pose others = trial.local_from_scan[sight.node] * graph.cameras[sight.camera].scan_from_camera;
     off_m = std::max(off_m, distance_between_m(others, sight.local_from_camera));
+    turned_rad = std::max(turned_rad, rotation_between_rad(others, sight.local_from_camera));
   }
-  return off_m;
+  return {off_m, turned_rad};
 }
 
 /// True when leaving out b leaves out a, too: then b explains nothing that a does not.
@@ -131,7 +135,7 @@ bool settle_one(const PoseGraph& graph, Adjustment& adjustment, Progress& progre
       contradiction.suspects.push_back(other.suspect);
   }
   contradiction.left_out = best.permitted && contradiction.suspects.size() == 1;
-  contradiction.off_m = off_from(best, graph);
+  std::tie(contradiction.off_m, contradiction.turned_rad) = off_from(best, graph);
   if (contradiction.left_out) leave_out(adjustment, best.suspect);
   adjustment.contradictions.push_back(contradiction);
   return contradiction.left_out;

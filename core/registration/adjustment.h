@@ -31,6 +31,7 @@ struct Contradiction {
   std::vector<Suspect> suspects;  ///< one when left out; else all whose absence would end the contradiction
   bool left_out = false;          ///< false: the others cannot tell which suspect is wrong, so all stay in
   double off_m = 0.0;             ///< what was left out, from where the others put it: the farthest of it
+  double turned_rad = 0.0;        ///< and how it is turned there, of pairs and pictures
 };
 
 struct Adjustment {

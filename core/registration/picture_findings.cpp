@@ -54,8 +54,13 @@ void measure_against_rest(PictureResult& picture, const PoseGraphResult& solved,
   picture.normalised = normalised_of(off.dot(sight.information * off));
 }
 
+/// Those of which a picture took part.
 void report_cameras(RegistrationResult& result, const PoseGraphResult& solved, const RegistrationContext& context) {
   for (std::size_t i = 0; i < context.cameras.size(); ++i) {
+    if (std::none_of(result.pictures.begin(), result.pictures.end(), [&](const PictureResult& picture) {
+          return picture.used && picture.camera == context.cameras[i].name;
+        }))
+      continue;
     const RigCamera& said = context.cameras[i];
     CameraResult camera{said.name, solved.scan_from_camera[i], 0.0, 0.0, normalised_of(solved.camera_misfit[i])};
     camera.moved_m = distance_between_m(camera.scan_from_camera, said.scan_from_camera);
@@ -92,6 +97,14 @@ void report_pictures(RegistrationResult& result, const Adjustment& adjustment, c
     result.pictures.push_back(picture);
   }
   report_cameras(result, solved, context);
+  const bool any =
+      std::any_of(adjustment.sight_used.begin(), adjustment.sight_used.end(), [](bool used) { return used; });
+  if (any && graph.control.empty())
+    result.findings.push_back(
+        {Severity::warning, "pictures",
+         "only they tie the survey to the site: nothing here checks that each is of its scan, how the camera sits, and its "
+         "focal length, which move everything with them",
+         "survey three targets that the scans see, or measure the lever arm in a job with control"});
 }
 
 namespace {

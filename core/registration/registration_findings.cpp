@@ -146,10 +146,12 @@ void report_contradictions(RegistrationResult& result, const Adjustment& adjustm
     std::vector<std::string> names;
     for (const Suspect& suspect : contradiction.suspects) names.push_back(name_of(suspect, graph, nodes));
     if (contradiction.left_out) {
-      char words[160];
+      char turned[60] = "", words[160];
+      if (contradiction.turned_rad > 0.0)
+        std::snprintf(turned, sizeof turned, " and %.3f degrees", deg_from_rad(contradiction.turned_rad));
       std::snprintf(words, sizeof words,
-                    "contradicts the other observations by %.3f m and was left out of the adjustment",
-                    contradiction.off_m);
+                    "contradicts the other observations by %.3f m%s and was left out of the adjustment",
+                    contradiction.off_m, turned);
       result.findings.push_back(
           {Severity::decision, names.front(), words, mend_of(contradiction.suspects.front().kind)});
     } else if (names.size() == 1) {

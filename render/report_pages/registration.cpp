@@ -320,9 +320,10 @@ void add_verdict(PageFlow& flow, const Results& results) {
     return;
   }
   flow.paragraph("Not accepted. To be decided by a person:", colours::red, 2.8, true);
-  for (const Finding& finding : registration.findings)
-    if (finding.severity == Severity::decision)
-      flow.paragraph(finding.subject + ": " + finding.words + "; " + finding.mend + ".", colours::red);
+  for (const Findings* findings : {&results.targets.findings, &registration.findings})
+    for (const Finding& finding : *findings)
+      if (finding.severity == Severity::decision)
+        flow.paragraph(finding.subject + ": " + finding.words + "; " + finding.mend + ".", colours::red);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "core/foundation/angle.h"
+#include "core/foundation/error.h"
 #include "io/atomic_file.h"
 #include "io/text_file.h"
 #include "tests/app/run.h"
@@ -69,7 +70,10 @@ TEST(PictureJobSlow, PicturesPlaceTheScansOfADemoWithoutControl) {
   EXPECT_EQ(moved->results.registration.pictures[0].rejected, std::vector{result.pictures[0].targets[2]});
   EXPECT_TRUE(is_said(moved->results, "target " + result.pictures[0].targets[2], "beside its surveyed place"));
   EXPECT_LT(moved->results.truth->worst_position_error_m, 0.010);
-  fs::copy_file(folder / "pictures" / "S2.png", folder / "pictures" / "S1.png", fs::copy_options::overwrite_existing);
+  const std::string first = io::read_text_file(folder / "pictures" / "S1.png");
+  io::write_file_atomically(folder / "pictures" / "S1.png", io::read_text_file(folder / "pictures" / "S2.png"));
+  EXPECT_THROW(tests::run(folder.path(), {}, "register"), Error);  // a copy under another name
+  io::write_file_atomically(folder / "pictures" / "S2.png", first);
   const auto exchanged = tests::run(folder.path(), {}, "register");
   EXPECT_TRUE(needs_a_person(exchanged->results));
   EXPECT_FALSE(exchanged->results.registration.accepted);

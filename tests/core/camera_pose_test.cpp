@@ -247,6 +247,21 @@ TEST(CalibrateCamera, TooFewAndSquarePicturesAreRefused) {
   EXPECT_THROW(calibrate_camera(other_board, lens.width, lens.height), Error) << "not the printed one";
 }
 
+TEST(CameraPose, ItsSigmasHoldWhatTheFocalLengthMayBeOff) {
+  // 0.1 % is some centimetre of ten metres, and hardly shows in the residuals.
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Scene scene(12, 0.05, seed);
+    scene.lens.focal_sigma = 0.001;
+    for (double* focal : {&scene.lens.fx, &scene.lens.fy}) *focal *= 1.0 + scene.lens.focal_sigma;
+    const CameraPose pose = locate_camera(scene.lens, scene.sights, {});
+    EXPECT_EQ(pose.used(), 12U) << seed;
+    const Eigen::Vector3d off = pose.site_from_camera.translation() - scene.site_from_camera.translation();
+    const Eigen::Matrix3d covariance = pose.covariance.topLeftCorner<3, 3>();
+    EXPECT_LT(off.dot(covariance.ldlt().solve(off)), 16.0) << seed;
+    EXPECT_NEAR(pose.by_focal_length.head<3>().norm(), off.norm(), 0.5 * off.norm() + 0.003) << seed;
+  }
+}
+
 TEST(CalibrateCamera, WhatIsWrongWithTheBoardIsNamed) {
   const CameraLens lens = lens_of();
   const auto refusal = [&](const std::vector<BoardPicture>& pictures) -> std::string {
