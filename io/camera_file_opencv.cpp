@@ -3,8 +3,10 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <span>
+#include <string_view>
 
 #include "core/foundation/error.h"
 #include "io/bytes.h"
@@ -15,6 +17,19 @@ namespace {
 
 [[noreturn]] void fail(const std::string& what, const std::string& file) {
   throw Error(what, file, "write the file with adit target calibrate, or with OpenCV");
+}
+
+/// OpenCV takes the first of two, and whole numbers modulo 2^32.
+void check_keys(const std::string& text, const std::string& file) {
+  for (const char* key :
+       {"image_width", "image_height", "camera_matrix", "distortion_coefficients", "focal_sigma_px"}) {
+    const std::string line = std::string("\n") + key + ":";
+    const std::size_t first = text.find(line);
+    if (first == std::string::npos) continue;
+    if (text.find(line, first + 1) != std::string::npos) fail(std::string("the key ") + key + " stands twice", file);
+    if (std::string_view(key).substr(0, 5) == "image" && std::strtod(text.c_str() + first + line.size(), nullptr) > 1e6)
+      fail(std::string("the key ") + key + " is beyond a million pixels", file);
+  }
 }
 
 int whole_number(const cv::FileStorage& storage, const char* key, const std::string& file) {
@@ -121,6 +136,7 @@ CameraLens read_camera(const std::filesystem::path& path) {
   const std::string text = file.beginning(static_cast<std::size_t>(file.size()));
   if (text.rfind("%YAML", 0) != 0) fail("this is no camera file: it does not begin with %YAML", file.name());
   if (is_nested_deeply(text)) fail("this is no camera file: its lists are nested more than twenty deep", file.name());
+  check_keys(text, file.name());
   try {
     const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (!storage.isOpened()) fail("the file is damaged", file.name());

@@ -33,12 +33,21 @@ int tiff_orientation(const std::string& bytes) {
   return 1;
 }
 
+/// OpenCV reads more, some of them in part.
+bool is_known(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  for (const std::string_view magic :
+       {"\x89PNG"sv, "II*\0"sv, "MM\0*"sv, "BM"sv, "P1"sv, "P2"sv, "P3"sv, "P4"sv, "P5"sv, "P6"sv})
+    if (bytes.substr(0, magic.size()) == magic) return true;
+  return false;
+}
+
 /// By OpenCV, which knows the formats.
 GreyPicture grey_of_any(const std::string& bytes, const std::string& file) {
   cv::Mat grey;
   try {
     const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-    grey = cv::imdecode(raw, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    if (is_known(bytes)) grey = cv::imdecode(raw, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     grey.release();
   }

@@ -1,5 +1,6 @@
 #include "io/job_targets_json.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <set>
 #include <string>
@@ -26,7 +27,12 @@ void read_lever_arm_matrix(const JsonPlace& place, JobCamera& camera) {
   Pose scan_from_camera;
   for (int r = 0; r < 4; ++r)
     for (int c = 0; c < 4; ++c) scan_from_camera.matrix()(r, c) = values[static_cast<std::size_t>(4 * r + c)];
-  if (!is_rigid(scan_from_camera.matrix()))
+  // Digits may have been cut: the nearest rotation.
+  constexpr double most_off = 1e-3;
+  const Eigen::Matrix3d said = scan_from_camera.linear();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(said, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  scan_from_camera.linear() = svd.matrixU() * svd.matrixV().transpose();
+  if (!((scan_from_camera.linear() - said).norm() < most_off) || !is_rigid(scan_from_camera.matrix()))
     place.refuse("this is no rigid transform",
                  "copy the 16 numbers of \"cameras\" in results.json, by rows, the last row 0, 0, 0, 1");
   camera.position = scan_from_camera.translation();

@@ -69,9 +69,20 @@ json picture_json(const PictureResult& picture, const ProjectOrigin& origin) {
   return one;
 }
 
-json found_targets_json(const std::vector<FoundTarget>& found) {
+/// Where a found target lies by the adjusted pose of its scan; null where that was not placed.
+json site_of(const FoundTarget& target, const Results& results) {
+  const auto& scans = results.registration.scans;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    if (scans[i].name != target.scan || !scans[i].placed) continue;
+    const Eigen::Vector3d site = site_from_scan(results, i) * target.position;
+    return {site.x(), site.y(), site.z()};
+  }
+  return nullptr;
+}
+
+json found_targets_json(const Results& results) {
   json list = json::array();
-  for (const FoundTarget& target : found) {
+  for (const FoundTarget& target : results.targets.found) {
     const char* kind = target.kind == TargetKind::sphere     ? "sphere"
                        : target.kind == TargetKind::quarters ? "quarters"
                                                              : "coded";
@@ -79,6 +90,7 @@ json found_targets_json(const std::vector<FoundTarget>& found) {
                     {"kind", kind},
                     {"id", target.id.empty() ? json(nullptr) : json(target.id)},
                     {"position", {target.position.x(), target.position.y(), target.position.z()}},
+                    {"site", site_of(target, results)},
                     {"sigma_mm", 1e3 * target.sigma_m},
                     {"size_m", target.size_m},
                     {"pixels", target.pixels}});
@@ -138,7 +150,7 @@ json registration_json(const Results& results) {
                             {"before_mdeg", 1e3 * deg_from_rad(loop.before_rad)},
                             {"after_mm", 1e3 * loop.after_m},
                             {"after_mdeg", 1e3 * deg_from_rad(loop.after_rad)}});
-  if (results.targets.looked_in_scans) out["found_targets"] = found_targets_json(results.targets.found);
+  if (results.targets.looked_in_scans) out["found_targets"] = found_targets_json(results);
   out["control"] = json::array();
   for (const ControlResidual& c : registration.control)
     out["control"].push_back({{"scan", c.scan},

@@ -88,6 +88,7 @@ Eigen::AlignedBox2d box_of(const Plan& plan, const Turn& turn) {
   for (const PlanAxisPoint& p : plan.axis) box.extend(turn.turned(p.position));
   for (const PlanPlace& p : plan.stations) box.extend(turn.turned(p.position));
   for (const PlanPlace& p : plan.control) box.extend(turn.turned(p.position));
+  for (const PlanPlace& p : plan.landmarks) box.extend(turn.turned(p.position));
   const Eigen::Vector2d margin(2.0 + 0.04 * box.sizes().x(), 3.0 + 0.04 * box.sizes().x());
   return {box.min() - margin, box.max() + margin};
 }
@@ -148,19 +149,32 @@ void draw_ties(Canvas& canvas, const PlotArea& area, const Turn& turn, const std
                 tie.is_whole ? Pen{colours::grey, 0.3, {}} : Pen{colours::red, 0.3, {1.0, 0.8}});
 }
 
+enum class Mark { station, control, landmark };
+
 void draw_places(Canvas& canvas, LabelRoom& room, const PlotArea& area, const Turn& turn,
-                 const std::vector<PlanPlace>& places, bool station) {
+                 const std::vector<PlanPlace>& places, Mark mark) {
+  const bool station = mark == Mark::station;
+  const Colour colour = mark == Mark::control ? colours::green : colours::ink_blue;
   for (const PlanPlace& place : places) {
     const PaperPoint at = area.at(turn.turned(place.position));
-    if (station) {
-      canvas.fill({{at + PaperPoint(0.0, -1.5), at + PaperPoint(1.3, 0.9), at + PaperPoint(-1.3, 0.9)}}, colours::red);
-    } else {
-      canvas.line(at - PaperPoint(1.0, 0.0), at + PaperPoint(1.0, 0.0), {colours::green, 0.3, {}});
-      canvas.line(at - PaperPoint(0.0, 1.0), at + PaperPoint(0.0, 1.0), {colours::green, 0.3, {}});
+    switch (mark) {
+      case Mark::station:
+        canvas.fill({{at + PaperPoint(0.0, -1.5), at + PaperPoint(1.3, 0.9), at + PaperPoint(-1.3, 0.9)}},
+                    colours::red);
+        break;
+      case Mark::control:
+        canvas.line(at - PaperPoint(1.0, 0.0), at + PaperPoint(1.0, 0.0), {colour, 0.3, {}});
+        canvas.line(at - PaperPoint(0.0, 1.0), at + PaperPoint(0.0, 1.0), {colour, 0.3, {}});
+        break;
+      case Mark::landmark:
+        canvas.polyline({at - PaperPoint(0.8, 0.0), at - PaperPoint(0.0, 0.8), at + PaperPoint(0.8, 0.0),
+                         at + PaperPoint(0.0, 0.8), at - PaperPoint(0.8, 0.0)},
+                        {colour, 0.25, {}});
+        break;
     }
     room.block(at, 1.2);
     label_beside(canvas, room, at, station ? 2.0 : 1.5, place.name,
-                 {.size_mm = text_mm, .colour = station ? colours::black : colours::green, .bold = station});
+                 {.size_mm = text_mm, .colour = station ? colours::black : colour, .bold = station});
   }
 }
 
@@ -183,8 +197,9 @@ void draw_plan(Canvas& canvas, const Rect& rect, const Plan& plan) {
   canvas.save();
   canvas.clip(rect);
   draw_ties(canvas, area, turn, plan.ties);
-  draw_places(canvas, room, area, turn, plan.stations, true);
-  draw_places(canvas, room, area, turn, plan.control, false);
+  draw_places(canvas, room, area, turn, plan.stations, Mark::station);
+  draw_places(canvas, room, area, turn, plan.control, Mark::control);
+  draw_places(canvas, room, area, turn, plan.landmarks, Mark::landmark);
   draw_axis(canvas, room, area, plan, turn);
   draw_grid_crosses(canvas, room, area, turn);
   canvas.restore();

@@ -34,6 +34,7 @@ struct Plan {
   std::vector<PlanPlace> stations;
   std::vector<PlanPlace> control;
   std::vector<PlanTie> ties;
+  std::vector<PlanPlace> landmarks{};  ///< coded targets that pictures show
 };
 
 /// Turned so that the axis (or, without one, the stations) runs to the right, with crosses of the site grid, a north

@@ -37,6 +37,7 @@ struct ReportContent {
   std::vector<OverviewCloud> clouds;
   std::vector<PairSection> pair_sections;  ///< of used pairs, the worst first
   std::vector<ControlPoint> control;       ///< local frame
+  std::vector<ControlPoint> landmarks;     ///< those that pictures show; local frame
   std::string date = "2000-01-01";         ///< ISO 8601, fixed by the caller: the same content gives the same bytes
 };
 

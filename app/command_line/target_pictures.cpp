@@ -204,7 +204,7 @@ int calibrate(const Arguments& arguments, const CommonOptions& common, Progress&
       throw Error("the picture has another size than the first one", image, "calibrate with pictures of one size");
     BoardPicture one{image, {}};
     for (const DetectedTarget& target : detect_targets(picture, options, progress))
-      one.sights.push_back({board.at(target.id), target.center, target.id});
+      one.sights.push_back({board.at(target.id), target.center, target.id, target.sigma_px});
     pictures.push_back(std::move(one));
   });
   const CameraCalibration calibration =

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <ctime>
+#include <set>
+#include <string>
 
 #include "app/pair_sections.h"
 #include "app/placed_tiles.h"
@@ -24,7 +26,7 @@ bool wanted(const JobState&) {
 
 std::string depends_on(const JobState& state) {
   std::string text =
-      "report 3|" + state.results.version + "|" + state.job.name + "|" + state.job.client + "|" + state.job.surveyor;
+      "report 4|" + state.results.version + "|" + state.job.name + "|" + state.job.client + "|" + state.job.surveyor;
   for (const auto& [step, key] : state.keys) text += "|" + step + key;
   const auto truth = state.input_sha256.find("truth.json");
   return text + (truth == state.input_sha256.end() ? "" : "|" + truth->second);
@@ -77,6 +79,14 @@ render::ReportContent content_of(const JobState& state, Progress& progress) {
     point.position = state.results.import.origin.to_local(point.position);
     content.control.push_back(point);
   }
+  std::set<std::string> seen;
+  for (const PictureResult& picture : state.results.registration.pictures) {
+    seen.insert(picture.targets.begin(), picture.targets.end());
+    seen.insert(picture.rejected.begin(), picture.rejected.end());
+  }
+  for (const auto& [id, site] : state.landmarks)
+    if (seen.count(std::to_string(id)) > 0)
+      content.landmarks.push_back({std::to_string(id), state.results.import.origin.to_local(site)});
   content.date = report_date();
   return content;
 }

@@ -16,6 +16,7 @@ struct BoardSight {
   Eigen::Vector3d board = Eigen::Vector3d::Zero();
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   int id = 0;
+  double sigma_px = 0.0;  ///< of each coordinate; 0: not known
 };
 
 struct BoardPicture {

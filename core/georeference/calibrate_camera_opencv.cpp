@@ -15,13 +15,26 @@ namespace {
 constexpr std::size_t least_targets = 6, least_pictures = 4;
 
 void judge(CameraCalibration& calibration, int width, int height, const std::vector<BoardPicture>& used) {
-  constexpr double poor_rms_px = 0.5, poor_focal = 0.005, least_filled = 0.5, square_pixels = 0.001;
+  constexpr double poor_rms_px = 0.5, poor_focal = 0.005, least_filled = 0.5, square_pixels = 0.001,
+                   doubtful_rms_px = 0.15, worse = 4.0;
   char words[200];
   if (calibration.rms_px > poor_rms_px) {
     std::snprintf(words, sizeof words, "the pictures fit to %.2f pixels (rms) only", calibration.rms_px);
     calibration.findings.push_back(
         {Severity::decision, "calibration", words,
          "print the board on a stiff plane, measure it, and keep focus and zoom as they are"});
+  }
+  double variance = 0.0, n = 0.0;
+  for (const BoardPicture& picture : used)
+    for (const BoardSight& sight : picture.sights) variance += 2.0 * sight.sigma_px * sight.sigma_px, n += 1.0;
+  const double expected_px = std::sqrt(variance / std::max(1.0, n));
+  if (calibration.rms_px <= poor_rms_px && calibration.rms_px > doubtful_rms_px && expected_px > 0.0 &&
+      calibration.rms_px > worse * expected_px) {
+    std::snprintf(words, sizeof words, "the pictures fit to %.2f pixels (rms), the targets are seen to %.2f",
+                  calibration.rms_px, expected_px);
+    calibration.findings.push_back(
+        {Severity::warning, "calibration", words,
+         "measure the print both ways, keep it stiff and flat, and keep focus and zoom as they are"});
   }
   if (calibration.sigma_fx > poor_focal * calibration.lens.fx) {
     std::snprintf(words, sizeof words, "the focal length is known to %.1f %% only (one sigma)",

@@ -36,12 +36,13 @@ std::vector<PointGrey> points_within(const ScanView& view, const TargetPlane& pl
                                      double radius_m, double reach_px) {
   constexpr double least_limit_m = 0.003;
   const double limit_m = std::max(least_limit_m, 4.0 * plane.rms_m);
-  const Eigen::Vector2d center = *view.pixel_of(frame.origin);
+  const auto center = view.pixel_of(frame.origin);
+  if (!center) return {};
   const auto from = [&](double at) { return std::max(0, static_cast<int>(at - reach_px)); };
   const auto to = [&](double at) { return std::min(view.grey.width - 1, static_cast<int>(at + reach_px) + 1); };
   std::vector<PointGrey> points;
-  for (int v = from(center.y()); v <= to(center.y()); ++v)
-    for (int u = from(center.x()); u <= to(center.x()); ++u) {
+  for (int v = from(center->y()); v <= to(center->y()); ++v)
+    for (int u = from(center->x()); u <= to(center->x()); ++u) {
       if (!view.has_point(u, v)) continue;
       const Eigen::Vector3d point = view.point(u, v);
       if (std::abs(plane.normal.dot(point - plane.middle)) > limit_m) continue;

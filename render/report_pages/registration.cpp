@@ -67,13 +67,19 @@ void add_plan(PageFlow& flow, const ReportContent& content) {
   if (content.results->registration.in_site)
     for (const ControlPoint& point : content.control)
       plan.control.push_back({point.id, origin.to_site(point.position).head<2>()});
+  if (content.results->registration.in_site)
+    for (const ControlPoint& point : content.landmarks)
+      plan.landmarks.push_back({point.id, origin.to_site(point.position).head<2>()});
   if (plan.axis.empty() && plan.stations.empty() && plan.control.empty()) return;
   draw_plan(flow.canvas(), flow.take(62.0), plan);
   flow.skip(1.5);
-  flow.paragraph(
+  std::string legend =
       "Triangles: scanner stations. Grey lines: pairs of scans that were used; red, dashed: those that do not know every "
-      "direction. Green crosses: control points. Dash-dot: the design axis with chainages.",
-      colours::grey, 2.3);
+      "direction. ";
+  if (!plan.control.empty()) legend += "Green crosses: control points. ";
+  if (!plan.landmarks.empty()) legend += "Blue diamonds: coded targets seen in pictures. ";
+  if (!plan.axis.empty()) legend += "Dash-dot: the design axis with chainages.";
+  flow.paragraph(legend, colours::grey, 2.3);
 }
 
 void add_scans(PageFlow& flow, const Results& results) {
