@@ -90,6 +90,7 @@ void enlarge(TargetReading& reading, double scale) {
   reading.place.shape *= scale;
   reading.blur_px *= scale;
   reading.covariance_px2 *= scale * scale;
+  reading.covered_px *= scale;
 }
 
 DetectedTarget target_of(const TargetReading& reading) {

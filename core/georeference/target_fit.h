@@ -23,6 +23,7 @@ struct TargetReading {
   double margin = 0.0;    ///< how much worse the next code fits, in segments
   bool alone = false;     ///< no list of codes that differ speaks for this one, only what each segment shows
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  ///< of the centre
+  double covered_px = 0.0;  ///< how far what hides parts of it may have pulled the centre, one sigma; in the covariance
 };
 
 /// What may be read.
