@@ -62,6 +62,24 @@ std::size_t report_moved(const std::string& subject, const std::vector<UnnamedTa
   return moved;
 }
 
+/// Coded targets that the control file lacks, in one finding. How many.
+std::size_t report_not_surveyed(const std::string& subject, const std::vector<ScanTarget>& seen,
+                                const std::vector<ControlPoint>& control, Findings& findings) {
+  constexpr std::size_t most_named = 12;
+  std::string ids;
+  std::size_t count = 0;
+  for (const ScanTarget& target : seen) {
+    if (target.kind != TargetKind::coded || !coded_point(control, target.code_id).empty()) continue;
+    if (count < most_named) ids += (ids.empty() ? "" : ", ") + std::to_string(target.code_id);
+    ++count;
+  }
+  if (count > most_named) ids += " and more";
+  if (count > 0)
+    findings.push_back({Severity::warning, subject, "coded targets that stand in no row of the control file: " + ids,
+                        "survey them, or correct their ids there"});
+  return count;
+}
+
 /// Those of one scan by control: coded ones that nobody surveyed take no part.
 void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarget> seen,
                   std::vector<FoundTarget>& found, Findings& findings, Progress& progress) {
@@ -103,13 +121,7 @@ void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarge
   }
   if (match.local_from_scan) contradicting += report_moved(subject, unnamed, match, control, findings);
   nameless -= std::min(nameless, contradicting);
-  for (const ScanTarget& target : seen)
-    if (target.kind == TargetKind::coded && coded_point(control, target.code_id).empty()) {
-      findings.push_back({Severity::warning, subject,
-                          "coded target " + std::to_string(target.code_id) + " stands in no row of the control file",
-                          "survey it, or correct its id there"});
-      nameless -= std::min<std::size_t>(nameless, 1);
-    }
+  nameless -= std::min(nameless, report_not_surveyed(subject, seen, control, findings));
   if (seen.empty()) {
     findings.push_back({Severity::warning, subject, "none of the targets the job asks for is found in it",
                         "scan more densely, or nearer to them"});
@@ -124,6 +136,13 @@ void name_targets(const JobState& state, std::size_t scan, std::vector<ScanTarge
                             " targets found in it are not used: no three control points" +
                             (guess ? " about its pose" : "") + " have their distances",
                         "three or more must be seen; check the control file and the scan's pose in job.json"});
+  } else if (nameless > 0 && !guess && match.matched == 3) {
+    findings.push_back(
+        {Severity::decision, subject,
+         "only three of its " + std::to_string(seen.size()) +
+             " targets lie on control points, and no pose bears it out: three also fit where east and north are "
+             "exchanged or heights have the wrong sign",
+         "give the scan a pose in job.json, or survey the others; check the control file"});
   } else if (nameless > 0) {
     findings.push_back({Severity::warning, subject,
                         std::to_string(nameless) + " of " + std::to_string(seen.size()) +

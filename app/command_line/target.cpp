@@ -12,16 +12,27 @@
 
 namespace adit::app {
 
-std::vector<int> ids_of(std::string words) {
-  std::erase(words, ' ');
+namespace {
+
+/// Those within stay: "1 2" is no id 12.
+std::string_view without_spaces_about(std::string_view word) {
+  while (!word.empty() && word.front() == ' ') word.remove_prefix(1);
+  while (!word.empty() && word.back() == ' ') word.remove_suffix(1);
+  return word;
+}
+
+}  // namespace
+
+std::vector<int> ids_of(const std::string& words) {
   std::vector<int> ids;
   std::size_t at = 0;
   while (at <= words.size()) {
     const std::size_t comma = std::min(words.find(',', at), words.size());
     const std::string part = words.substr(at, comma - at);
     const std::size_t dash = part.find('-');
-    const auto first = target_id(std::string_view(part).substr(0, dash));
-    const auto last = dash == std::string::npos ? first : target_id(std::string_view(part).substr(dash + 1));
+    const auto first = target_id(without_spaces_about(std::string_view(part).substr(0, dash)));
+    const auto last =
+        dash == std::string::npos ? first : target_id(without_spaces_about(std::string_view(part).substr(dash + 1)));
     if (!first || !last || *last < *first)
       throw Error("\"" + part + "\" names no ids", "--ids",
                   "write for instance 1-40,57; ids run from 1 to " + std::to_string(target_code_count));

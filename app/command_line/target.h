@@ -11,7 +11,7 @@
 namespace adit::app {
 
 /// "1-40, 57, 60-62": each id once, in order. Throws Error for anything else.
-std::vector<int> ids_of(std::string words);
+std::vector<int> ids_of(const std::string& words);
 
 /// The work's result; an Error without a place gets this one.
 template <typename Work>

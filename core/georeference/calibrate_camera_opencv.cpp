@@ -16,7 +16,7 @@ constexpr std::size_t least_targets = 6, least_pictures = 4;
 
 void judge(CameraCalibration& calibration, int width, int height, const std::vector<BoardPicture>& used) {
   constexpr double poor_rms_px = 0.5, poor_focal = 0.005, least_filled = 0.5, square_pixels = 0.001,
-                   doubtful_rms_px = 0.15, worse = 4.0;
+                   doubtful_rms_px = 0.15, worse = 3.0;
   char words[200];
   if (calibration.rms_px > poor_rms_px) {
     std::snprintf(words, sizeof words, "the pictures fit to %.2f pixels (rms) only", calibration.rms_px);
@@ -45,11 +45,12 @@ void judge(CameraCalibration& calibration, int width, int height, const std::vec
   const double apart = std::abs(calibration.lens.fx - calibration.lens.fy);
   if (apart >
       std::max(square_pixels * calibration.lens.fx, 4.0 * std::hypot(calibration.sigma_fx, calibration.sigma_fy))) {
-    std::snprintf(words, sizeof words,
-                  "both focal lengths differ by %.2f %%: pixels are square, so the print is longer one way",
-                  100.0 * apart / calibration.lens.fx);
+    std::snprintf(
+        words, sizeof words,
+        "both focal lengths differ by %.2f %%: pixels are rarely so far from square, and the print may be longer one way",
+        100.0 * apart / calibration.lens.fx);
     calibration.findings.push_back(
-        {Severity::decision, "calibration", words, "measure the print both ways, and scale the columns of its table"});
+        {Severity::warning, "calibration", words, "measure the print both ways, and scale the columns of its table"});
   }
   Eigen::AlignedBox2d box;
   for (const BoardPicture& picture : used)

@@ -286,6 +286,29 @@ TEST(CalibrateCamera, WhatIsWrongWithTheBoardIsNamed) {
     for (BoardSight& sight : picture.sights) sight.board.z() += 5.0;
   EXPECT_NEAR(calibrate_camera(high, lens.width, lens.height).lens.fx,
               calibrate_camera(pictures, lens.width, lens.height).lens.fx, 1e-6);
+  // Unequal focal lengths, as a print gives that is longer one way; one that fits worse than its targets are seen.
+  CameraLens square = lens;
+  square.fy = square.fx;
+  const auto even = board_pictures(square, 12, 0.7, 0.05);
+  const auto is_said = [&](const std::vector<BoardPicture>& some, const std::string& words) {
+    const Findings findings = calibrate_camera(some, lens.width, lens.height).findings;
+    return std::any_of(findings.begin(), findings.end(),
+                       [&](const Finding& finding) { return finding.words.find(words) != std::string::npos; });
+  };
+  CameraLens oblong = square;
+  oblong.fy *= 1.004;
+  auto doubtful = even;
+  EXPECT_TRUE(is_said(board_pictures(oblong, 12, 0.7, 0.05), "the print may be longer one way"));
+  EXPECT_FALSE(is_said(even, "the print may be longer one way"));
+  for (BoardPicture& picture : doubtful)
+    for (BoardSight& sight : picture.sights) {
+      sight.sigma_px = 0.02;
+      sight.pixel += Eigen::Vector2d(0.4 * std::sin(40.0 * sight.board.x()), 0.0);
+    }
+  EXPECT_TRUE(is_said(doubtful, "the targets are seen to"));
+  for (BoardPicture& picture : doubtful)
+    for (BoardSight& sight : picture.sights) sight.sigma_px = 0.3;
+  EXPECT_FALSE(is_said(doubtful, "the targets are seen to"));
   for (BoardPicture& picture : moved)
     for (std::size_t k = 0; k < picture.sights.size(); ++k) {
       picture.sights[k].id = static_cast<int>(k) + 1;

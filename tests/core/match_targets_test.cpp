@@ -99,6 +99,27 @@ TEST(MatchTargets, ControlInAMirrorDoesNotTurnTheScannerUpsideDown) {
   EXPECT_TRUE(!match.local_from_scan || match.local_from_scan->linear()(2, 2) > 0.0);
 }
 
+TEST(MatchTargets, AScannerThatWouldLieOnItsSideIsNotPlaced) {
+  // Depths written for heights: any three points fit, with the scanner tilted about their plane.
+  int fitted = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    auto control = control_along(40, seed);
+    const auto seen = seen_of(control, {12, 13, 20}, seed);
+    for (ControlPoint& point : control) point.position.z() = -point.position.z();
+    EXPECT_FALSE(matched(seen, control).local_from_scan) << seed;
+    // A guess as wrong as the heights lets it through: it is the tilt that was refused.
+    std::vector<Eigen::Vector3d> source, target;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      source.push_back(seen[k].in_scan);
+      target.push_back(control[std::vector<std::size_t>{12, 13, 20}[k]].position);
+    }
+    const auto pose = fit_rigid(source, target);
+    ASSERT_TRUE(pose);
+    fitted += pose->linear()(2, 2) > 0.0 && matched(seen, control, *pose).local_from_scan ? 1 : 0;
+  }
+  EXPECT_GE(fitted, 1);
+}
+
 TEST(MatchTargets, TooFewOrOfAnotherPlaceGiveNothing) {
   const auto control = control_along(40, 4);
   EXPECT_EQ(matched(seen_of(control, {8, 11}, 4), control).matched, 0U);
